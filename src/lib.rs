@@ -1,1 +1,15 @@
-#![allow(missing_docs)]
+//! vair renders what people wear: fur and cloth, on Vulkan.
+//!
+//! Rooms, each seeing only those before it:
+//! [`math`] <- [`gpu`], [`asset`], [`shader`], [`profile`] <- [`material`] <- [`scene`] <- [`render`].
+
+#[allow(unsafe_code)]
+pub mod gpu;
+
+pub mod asset;
+pub mod material;
+pub mod math;
+pub mod profile;
+pub mod render;
+pub mod scene;
+pub mod shader;

@@ -94,7 +94,9 @@ impl Transform {
     /// `parent_from_local`.
     pub fn matrix(&self) -> Mat4 {
         match *self {
-            Self::Trs { translation, rotation, scale } => Mat4::from_scale_rotation_translation(scale, rotation, translation),
+            Self::Trs { translation, rotation, scale } => {
+                Mat4::from_scale_rotation_translation(scale, rotation, translation)
+            }
             Self::Matrix(matrix) => matrix,
         }
     }

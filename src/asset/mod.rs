@@ -1,0 +1,4 @@
+//! Files or formulas to plain data.
+
+mod model;
+pub use model::*;
