@@ -1,0 +1,28 @@
+// What every pass of one frame shares. Mirrored to Rust by build.rs.
+
+const uint LIGHT_DIRECTIONAL = 0;
+const uint LIGHT_POINT = 1;
+const uint LIGHT_SPOT = 2;
+
+struct FrameUniforms {
+    mat4 clip_from_world;      // reversed Z: 1 at the near plane, 0 far away; Y up
+    vec3 eye_in_world;         // metres
+    uint light_count;          // entries of the light list
+    vec3 view_in_world;        // unit vector against the view direction; the view vector of a parallel camera
+    float orthographic;        // 1 for a parallel camera, 0 for perspective
+    vec3 ambient_radiance;     // linear RGB, from every direction alike
+    uint sample_count;         // samples a pixel of the targets: 1 or 4
+};
+
+struct LightSource {
+    vec3 position_in_world;    // metres; point and spot
+    float range_m;             // metres; 0 = infinite
+    vec3 direction_to_light;   // unit vector; directional: towards the light, spot: against its axis
+    uint kind;                 // LIGHT_*
+    vec3 intensity;            // linear RGB: lux (directional) or candela (point, spot)
+    float spot_scale;          // 1 / (cos inner - cos outer)
+    float spot_offset;         // -cos outer * spot_scale
+    float _reserved_0;
+    float _reserved_1;
+    float _reserved_2;
+};

@@ -1,0 +1,176 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One shell layer of fur: which strands cut it here, and the light they send to the eye.
+#include "frame.glsl"
+#include "standard.glsl"
+#include "fur.glsl"
+#include "light.glsl"
+#include "uv.glsl"
+#include "hash.glsl"
+#include "strand.glsl"
+#include "coverage.glsl"
+
+layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
+layout(constant_id = 6) const uint BLEND = 0;            // 1: over-blending instead of sample coverage
+layout(constant_id = 7) const uint PARABOLOID = 0;
+layout(constant_id = 8) const uint HAS_DISTRIBUTION_MAP = 0;
+layout(constant_id = 9) const uint HAS_BASE_COLOR_MAP = 0;
+layout(constant_id = 10) const uint HAS_SPOT_MAP = 0;
+layout(constant_id = 11) const uint HAS_LOCKS = 0;       // clump or curl
+layout(constant_id = 12) const uint HARD_CUT = 0;        // cutout: opacity is 0 or 1 but for the edge
+
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
+layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
+layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
+#ifdef MAPS
+layout(set = 1, binding = 3) uniform texture2D distribution_map;
+layout(set = 1, binding = 4) uniform sampler distribution_sampler;
+layout(set = 1, binding = 5) uniform texture2D base_color_map;
+layout(set = 1, binding = 6) uniform sampler base_color_sampler;
+layout(set = 1, binding = 7) uniform texture2D spot_map;
+layout(set = 1, binding = 8) uniform sampler spot_sampler;
+#endif
+
+layout(location = 0) in vec3 position_in_world;
+layout(location = 1) in vec3 root_direction_in_world;
+layout(location = 2) in vec3 strand_in_world;
+layout(location = 3) in vec3 root_in_rest;
+layout(location = 4) in vec3 direction_in_rest;
+layout(location = 5) in vec2 height_and_length;
+#ifdef MAPS
+layout(location = 6) in vec4 uv_sets;
+#endif
+#ifdef COLOR
+layout(location = 7) in vec3 vertex_color;
+#endif
+
+layout(location = 0) out vec4 radiance;
+
+// A vector of the shell's surface, given by how far it goes along the pixel's two steps.
+vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
+    float xx = dot(step_x, step_x);
+    float xy = dot(step_x, step_y);
+    float yy = dot(step_y, step_y);
+    float determinant = xx * yy - xy * xy;
+    if (determinant <= 1e-6 * xx * yy) { return vec2(0.0); }
+    vec2 right = vec2(dot(vector, step_x), dot(vector, step_y));
+    return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
+}
+
+// Locks: strands gather towards the middle of their lock and twist around it, more so at the tip. Gives the root
+// that the strand passing here grew from.
+vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
+    const float lock_size = 9.0;
+    vec3 in_locks = position_in_cells / lock_size;
+    vec3 corner = floor(in_locks - 0.5);
+    vec3 middle = vec3(0.0);
+    float nearest = 1e9;
+    float own_random = 0.0;
+    for (int index = 0; index < 8; ++index) {
+        vec3 cell = corner + vec3(float(index & 1), float((index >> 1) & 1), float(index >> 2));
+        vec3 random = hash_cell(ivec3(cell) + 7919);
+        vec3 offset = cell + 0.5 + (random * 2.0 - 1.0) * STRAND_JITTER - in_locks;
+        float distance_squared = dot(offset, offset);
+        if (distance_squared < nearest) {
+            nearest = distance_squared;
+            middle = offset;
+            own_random = random.x;
+        }
+    }
+    vec3 from_middle = -(middle - dot(middle, normal) * normal) * lock_size;
+    float gather = 1.0 / max(1.0 - 0.85 * fur.clump * height, 0.1);
+    float turn = fur.curl * 6.28318531 * height * (own_random < 0.5 ? -1.0 : 1.0) * (0.6 + 0.4 * own_random);
+    vec3 twisted = from_middle * cos(turn) + cross(normal, from_middle) * sin(turn);
+    return position_in_cells + (twisted * gather - from_middle);
+}
+
+void main() {
+    float height = height_and_length.x;
+    vec3 normal = normalize(root_direction_in_world);
+    vec3 strand = normalize(strand_in_world);
+    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : normalize(frame.eye_in_world - position_in_world);
+    float cosine_to_eye = dot(normal, to_eye);
+
+    // The shell stands for a slab. Through it the view ray shifts, relative to the strands, by half_slab on the
+    // surface to either side of the middle.
+    vec3 step_x = dFdx(position_in_world);
+    vec3 step_y = dFdy(position_in_world);
+    float slab_m = height_and_length.y / float(fur.layers);
+    float along_strand = max(dot(strand, normal), 0.1);
+    float along_ray = max(cosine_to_eye, 0.05);
+    vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
+    vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
+
+    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID != 0u) + fur.taper * height * height;
+    float own_random = 0.5;
+    float opacity;
+    uint has_map = HAS_DISTRIBUTION_MAP;
+#ifdef MAPS
+    if (has_map != 0u) {
+        vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
+        vec2 gradient_x = dFdx(map_uv);
+        vec2 gradient_y = dFdy(map_uv);
+        float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
+        opacity = strand_opacity(map, threshold, fwidth(map), map >= threshold ? 1.0 : 0.0);
+        own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
+    } else
+#endif
+    {
+        float cells_per_unit = 1.0 / fur.strand_spacing;
+        vec3 rest_normal = normalize(direction_in_rest);
+        vec3 cell_x = dFdx(root_in_rest) * cells_per_unit;
+        vec3 cell_y = dFdy(root_in_rest) * cells_per_unit;
+        vec3 half_segment = in_steps.x * cell_x + in_steps.y * cell_y;
+        float segment_length = length(half_segment);
+        if (segment_length > 0.5) { half_segment *= 0.5 / segment_length; }
+        vec3 in_cells = root_in_rest * cells_per_unit;
+        if (HAS_LOCKS != 0u) { in_cells = lock_root(in_cells, rest_normal, height); }
+        StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
+        // The narrower footprint: the wider one, at grazing angles, runs along the segment.
+        float footprint = sqrt(min(dot(cell_x, cell_x), dot(cell_y, cell_y)));
+        opacity = strand_opacity(field.profile, threshold, footprint / fur.strand_radius,
+                                 strand_mean_coverage(threshold, fur.strand_radius));
+        own_random = field.random;
+    }
+    // 1 - k^2 times a mix with the cosine: in [0, 1] by construction.
+    opacity *= mix(1.0, 1.0 - height * height, fur.tip_fade) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
+
+    uint blend = BLEND;
+    uint samples = SAMPLE_COUNT;
+    int mask = -1;
+    if (blend != 0u) {
+        if (opacity <= 0.0) { discard; }
+    } else {
+        if (HARD_CUT != 0u && samples == 1u) { opacity = opacity >= 0.5 ? 1.0 : 0.0; }
+        mask = coverage_mask(opacity, samples, uvec2(gl_FragCoord.xy));
+        if (mask == 0) { discard; }
+    }
+    gl_SampleMask[0] = mask;
+
+    vec3 color = fur.base_color.rgb;
+#ifdef COLOR
+    color *= vertex_color;
+#endif
+#ifdef MAPS
+    if (HAS_BASE_COLOR_MAP != 0u) {
+        vec2 uv = uv_transformed(fur.base_color_transform, uv_sets.xy, uv_sets.zw);
+        color *= texture(sampler2D(base_color_map, base_color_sampler), uv).rgb;
+    }
+    if (HAS_SPOT_MAP != 0u) {
+        vec2 uv = uv_transformed(fur.spot_transform, uv_sets.xy, uv_sets.zw);
+        color = mix(color, fur.spot_color, texture(sampler2D(spot_map, spot_sampler), uv).r);
+    }
+#endif
+    color *= mix(fur.root_color, fur.tip_color, height);
+    color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
+
+    float variance = strand_variance(fur.roughness);
+    vec3 sum = frame.ambient_radiance * color * mix(1.0 - fur.occlusion, 1.0, height);
+    for (uint index = 0u; index < frame.light_count; ++index) {
+        LightSample light = light_sample(lights[index], position_in_world);
+        float through = strand_light_through_coat(height, fur.occlusion, dot(normal, light.direction_in_world));
+        vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
+        sum += light.irradiance * through * scattered;
+    }
+    radiance = blend != 0u ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+}

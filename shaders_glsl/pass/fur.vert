@@ -1,0 +1,111 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One shell layer per instance; instance 0 is the outermost, so that early depth tests reject what it hides.
+#include "frame.glsl"
+#include "object.glsl"
+#include "standard.glsl"
+#include "fur.glsl"
+#include "hash.glsl"
+#include "strand.glsl"
+#include "uv.glsl"
+
+layout(constant_id = 0) const uint INNER_FIRST = 0;    // 1: instance 0 is the innermost (blend mode)
+layout(constant_id = 1) const uint LINEAR_BEND = 0;    // 1: classic displacement, which lengthens strands
+layout(constant_id = 2) const uint PROJECT_UV = 0;     // 1: the mesh has no UVs
+layout(constant_id = 3) const uint HAS_HEIGHT_MAP = 0;
+layout(constant_id = 4) const uint FORCE_IN_OBJECT = 0;
+
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
+layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
+layout(set = 2, binding = 0, std430) readonly buffer ObjectList { ObjectUniforms objects[]; };
+layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+#ifdef MAPS
+layout(set = 1, binding = 1) uniform texture2D height_map;
+layout(set = 1, binding = 2) uniform sampler height_sampler;
+#endif
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 shell_direction;
+layout(location = 2) in vec3 rest_position;
+layout(location = 3) in vec3 rest_direction;
+#ifdef MAPS
+layout(location = 4) in vec2 uv_0;
+layout(location = 6) in vec2 uv_1;
+#endif
+#ifdef COLOR
+layout(location = 5) in vec4 color;
+#endif
+
+layout(location = 0) out vec3 position_in_world;
+layout(location = 1) out vec3 root_direction_in_world;
+layout(location = 2) out vec3 strand_in_world;      // tangent of the strand at this height
+layout(location = 3) out vec3 root_in_rest;
+layout(location = 4) out vec3 direction_in_rest;
+layout(location = 5) out vec2 height_and_length;    // height in the coat [0, 1], strand length in metres
+#ifdef MAPS
+layout(location = 6) out vec4 uv_sets;
+#endif
+#ifdef COLOR
+layout(location = 7) out vec3 vertex_color;
+#endif
+
+vec3 unit_or(vec3 v, vec3 fallback) {
+    float length_squared = dot(v, v);
+    return length_squared > 1e-30 ? v * inversesqrt(length_squared) : fallback;
+}
+
+void main() {
+    mat4 world_from_object = objects[draw.object_index].world_from_object;
+    vec3 root = (world_from_object * vec4(position, 1.0)).xyz;
+    vec3 direction = unit_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
+
+    uint shell = uint(gl_InstanceIndex);
+    uint inner_first = INNER_FIRST;
+    uint layer = inner_first != 0u ? shell : fur.layers - 1u - shell;
+    // The middle of slab [layer / N, (layer + 1) / N].
+    float height = (float(layer) + 0.5) / float(fur.layers);
+
+    float strand_length = fur.length_m;
+#ifdef COLOR
+    strand_length *= color.a;
+    vertex_color = color.rgb;
+#endif
+#ifdef MAPS
+    uv_sets = vec4(uv_0, uv_1);
+    if (PROJECT_UV != 0u) { uv_sets = vec4(uv_projected(rest_position, rest_direction) * fur.projection_scale, 0.0, 0.0); }
+    if (HAS_HEIGHT_MAP != 0u) {
+        vec2 uv = uv_transformed(fur.height_transform, uv_sets.xy, uv_sets.zw);
+        float map = textureLod(sampler2D(height_map, height_sampler), uv, 0.0).r;
+        strand_length *= mix(1.0, map, fur.height_strength);
+    }
+#endif
+
+    vec3 force = fur.force;
+    if (FORCE_IN_OBJECT != 0u) { force = unit_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
+    // The comb lays strands over in the tangent plane; its axes come from the world's up direction.
+    vec3 side = unit_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
+    vec3 total = force + fur.comb.x * side + fur.comb.y * cross(direction, side);
+    float strength = length(total);
+    if (strength > 1.0) { total /= strength; }
+
+    vec3 sideways = unit_or(total - dot(total, direction) * direction, side);
+    vec2 bent;
+    vec3 strand;
+    if (LINEAR_BEND != 0u) {
+        bent = vec2(0.0, height);
+        position_in_world = root + (direction * height + total * height * height) * strand_length;
+        strand = unit_or(direction + 2.0 * height * total, direction);
+    } else {
+        float angle = strand_bend_angle(direction, total);
+        bent = strand_arc(height, angle);
+        position_in_world = root + (sideways * bent.x + direction * bent.y) * strand_length;
+        strand = sideways * sin(angle * height) + direction * cos(angle * height);
+    }
+
+    root_direction_in_world = direction;
+    strand_in_world = strand;
+    root_in_rest = rest_position;
+    direction_in_rest = rest_direction;
+    height_and_length = vec2(height, strand_length);
+    gl_Position = frame.clip_from_world * vec4(position_in_world, 1.0);
+}

@@ -1,0 +1,49 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Standard and unlit surfaces.
+#include "frame.glsl"
+#include "object.glsl"
+
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
+layout(set = 2, binding = 0, std430) readonly buffer ObjectList { ObjectUniforms objects[]; };
+layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+
+layout(location = 0) in vec3 position;
+layout(location = 0) out vec3 position_in_world;
+#ifndef UNLIT
+layout(location = 1) in vec3 normal;
+layout(location = 1) out vec3 normal_in_world;
+#endif
+#ifdef UV
+layout(location = 2) in vec2 uv_0;
+layout(location = 3) in vec2 uv_1;
+layout(location = 2) out vec4 uv_sets;
+#endif
+#ifdef TANGENT
+layout(location = 4) in vec4 tangent;
+layout(location = 3) out vec4 tangent_in_world;
+#endif
+#ifdef COLOR
+layout(location = 5) in vec4 color;
+layout(location = 4) out vec4 vertex_color;
+#endif
+
+void main() {
+    mat4 world_from_object = objects[draw.object_index].world_from_object;
+    vec4 world = world_from_object * vec4(position, 1.0);
+    position_in_world = world.xyz;
+    gl_Position = frame.clip_from_world * world;
+    gl_PointSize = 1.0;
+#ifndef UNLIT
+    normal_in_world = mat3(objects[draw.object_index].normal_from_object) * normal;
+#endif
+#ifdef UV
+    uv_sets = vec4(uv_0, uv_1);
+#endif
+#ifdef TANGENT
+    tangent_in_world = vec4(mat3(world_from_object) * tangent.xyz, tangent.w);
+#endif
+#ifdef COLOR
+    vertex_color = color;
+#endif
+}

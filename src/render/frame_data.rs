@@ -1,0 +1,161 @@
+//! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
+
+use super::material::{CoatSize, fur_uniforms};
+use super::options::FrameOptions;
+use super::plan::{Draw, DrawKind, Plan, fur_maps};
+use super::resources::Resources;
+use super::stream::Stream;
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::scene::{Camera, LightShape, Lighting, Pose, Scene, joint_matrices};
+use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
+use ash::vk;
+use bytemuck::{NoUninit, Zeroable};
+use glam::{Mat3, Mat4};
+use std::collections::HashMap;
+
+/// What one frame reads and no other.
+pub struct FrameData {
+    frame: Buffer,
+    lights: Option<Buffer>,
+    objects: Buffer,
+    /// Moved streams of (instance, stream).
+    pub deformed: HashMap<(usize, Stream), Buffer>,
+    /// Bind groups of the deform dispatches, in the plan's order.
+    pub deform_groups: Vec<BindGroup>,
+    /// Frame and object bind groups by pipeline.
+    pub shared_groups: HashMap<usize, (BindGroup, BindGroup)>,
+    /// Coat bind groups by (instance, pipeline).
+    pub coat_groups: HashMap<(usize, usize), BindGroup>,
+}
+
+impl FrameData {
+    /// Uploads this frame's values and binds them to the plan's pipelines.
+    ///
+    /// # Errors
+    /// When the device is out of memory or lost.
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(gpu: &Gpu, resources: &mut Resources, scene: &Scene, plan: &Plan, pose: &Pose, camera: &Camera, lighting: &Lighting, options: &FrameOptions) -> Result<Self, GpuError> {
+        let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
+        let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
+        let frame = frame_uniforms(camera, lighting, options);
+        let objects: Vec<ObjectUniforms> = plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
+        let mut data = Self {
+            frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
+            lights: if lit { Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?) } else { None },
+            objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
+            deformed: HashMap::new(),
+            deform_groups: Vec::new(),
+            shared_groups: HashMap::new(),
+            coat_groups: HashMap::new(),
+        };
+        data.bind_deforms(gpu, resources, scene, plan, pose)?;
+        data.bind_shared(gpu, resources, plan)?;
+        for draw in plan.fur.iter().chain(&plan.transparent) {
+            data.bind_coat(gpu, resources, scene, plan, draw)?;
+        }
+        Ok(data)
+    }
+
+    fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, plan: &Plan) -> Result<(), GpuError> {
+        for (index, spec) in plan.pipelines.iter().enumerate() {
+            let pipeline = resources.pipeline(spec);
+            let mut offered = vec![("FrameBlock", Resource::Buffer(&self.frame))];
+            if let Some(lights) = &self.lights {
+                offered.push(("LightList", Resource::Buffer(lights)));
+            }
+            let frame = gpu.bind_group(pipeline, 0, "frame", &offered)?;
+            let objects = gpu.bind_group(pipeline, 2, "objects", &[("ObjectList", Resource::Buffer(&self.objects))])?;
+            self.shared_groups.insert(index, (frame, objects));
+        }
+        Ok(())
+    }
+
+    fn bind_coat(&mut self, gpu: &Gpu, resources: &mut Resources, scene: &Scene, plan: &Plan, draw: &Draw) -> Result<(), GpuError> {
+        let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
+        let Some(fur) = &scene.materials[material].fur else { return Ok(()) };
+        let instance = &plan.instances[draw.instance];
+        let size = CoatSize {
+            rest_radius: scene.rest_radius(instance.mesh),
+            world_radius_m: scene.world_radius_m(instance),
+        };
+        let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, size, layers)])?;
+        let mut maps = Vec::new();
+        for (map, reference, srgb) in fur_maps(fur) {
+            maps.push((format!("{map}_map"), format!("{map}_sampler"), resources.map(scene, reference, srgb)?));
+        }
+        let mut offered = vec![("FurBlock", Resource::Buffer(&uniforms))];
+        for (map, sampler, (image, state)) in &maps {
+            offered.push((map, Resource::Texture(image)));
+            offered.push((sampler, Resource::Sampler(state)));
+        }
+        let pipeline = resources.pipeline(&plan.pipelines[draw.pipeline]);
+        let group = gpu.bind_group(pipeline, 1, &scene.materials[material].name, &offered)?;
+        self.coat_groups.insert((draw.instance, draw.pipeline), group);
+        Ok(())
+    }
+
+    fn bind_deforms(&mut self, gpu: &Gpu, resources: &Resources, scene: &Scene, plan: &Plan, pose: &Pose) -> Result<(), GpuError> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let mut joints: HashMap<usize, Buffer> = HashMap::new();
+        for deform in &plan.deforms {
+            let instance = &plan.instances[deform.instance];
+            let index = (instance.mesh, instance.primitive);
+            let count = scene.asset.meshes[index.0].primitives[index.1].vertices.positions.len();
+            let bytes = (count as u64 * u64::from(deform.stream.stride())).max(4);
+            let target = gpu.buffer("deformed stream", bytes, storage | vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device)?;
+            let mut offered = vec![
+                ("SourceStream", Resource::Buffer(&resources.streams[&(index, deform.stream)])),
+                ("TargetStream", Resource::Buffer(&target)),
+            ];
+            if let (Some(skin), Some((indices, weights))) = (instance.skin, resources.influences.get(&index)) {
+                if !joints.contains_key(&skin) {
+                    let matrices: Vec<[[f32; 4]; 4]> = joint_matrices(&scene.asset, skin, pose).iter().map(Mat4::to_cols_array_2d).collect();
+                    joints.insert(skin, filled(gpu, "joints", storage, &matrices)?);
+                }
+                offered.push(("JointList", Resource::Buffer(&joints[&skin])));
+                offered.push(("InfluenceList", Resource::Buffer(indices)));
+                offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
+            }
+            let weights = filled(gpu, "morph weights", storage, &instance.morph_weights)?;
+            if let Some(deltas) = resources.morph_deltas.get(&(index, deform.stream)) {
+                offered.push(("MorphDeltas", Resource::Buffer(deltas)));
+                offered.push(("MorphWeights", Resource::Buffer(&weights)));
+            }
+            let pipeline = resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]);
+            self.deform_groups.push(gpu.bind_group(pipeline, 0, "deform", &offered)?);
+            self.deformed.insert((deform.instance, deform.stream), target);
+        }
+        Ok(())
+    }
+}
+
+/// A host-visible buffer with these values; one zero word when there are none, since Vulkan has no empty buffers.
+fn filled<T: NoUninit>(gpu: &Gpu, name: &str, usage: vk::BufferUsageFlags, values: &[T]) -> Result<Buffer, GpuError> {
+    let bytes = (std::mem::size_of_val(values)).max(size_of::<T>()) as u64;
+    let buffer = gpu.buffer(name, bytes, usage, Memory::Upload)?;
+    buffer.write(0, values)?;
+    Ok(buffer)
+}
+
+fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) -> FrameUniforms {
+    FrameUniforms {
+        clip_from_world: camera.clip_from_world().to_cols_array_2d(),
+        eye_in_world: camera.eye_in_world().to_array(),
+        light_count: lighting.lights.len() as u32,
+        view_in_world: camera.view_in_world().to_array(),
+        orthographic: if camera.is_orthographic() { 1.0 } else { 0.0 },
+        ambient_radiance: lighting.ambient_radiance.to_array(),
+        sample_count: options.msaa,
+    }
+}
+
+fn object_uniforms(world_from_object: Mat4) -> ObjectUniforms {
+    let linear = Mat3::from_mat4(world_from_object);
+    // Inverse transpose times |determinant|: defined for singular matrices, and right for mirrored ones.
+    let cofactors = Mat3::from_cols(linear.y_axis.cross(linear.z_axis), linear.z_axis.cross(linear.x_axis), linear.x_axis.cross(linear.y_axis));
+    let normal = if linear.determinant() < 0.0 { cofactors * -1.0 } else { cofactors };
+    ObjectUniforms {
+        world_from_object: world_from_object.to_cols_array_2d(),
+        normal_from_object: Mat4::from_mat3(normal).to_cols_array_2d(),
+    }
+}

@@ -1,0 +1,95 @@
+//! Materials as the shaders read them.
+
+use crate::asset::{AlphaMode, TextureRef};
+use crate::material::{Fur, Length, Standard};
+use crate::shader::layout::{FurUniforms, StandardUniforms, TextureTransform};
+use bytemuck::Zeroable;
+use glam::Vec3;
+
+/// The uniform block of a surface.
+pub fn standard_uniforms(standard: &Standard) -> StandardUniforms {
+    StandardUniforms {
+        base_color: standard.base_color.to_array(),
+        emissive: standard.emissive.to_array(),
+        alpha_cutoff: match standard.alpha_mode {
+            AlphaMode::Mask(cutoff) => cutoff,
+            AlphaMode::Opaque | AlphaMode::Blend => 0.0,
+        },
+        metallic: standard.metallic,
+        roughness: standard.roughness,
+        normal_scale: standard.normal_scale,
+        occlusion_strength: standard.occlusion_strength,
+        detail_normal_scale: standard.detail_normal_scale,
+        base_color_transform: transform(standard.base_color_texture),
+        metallic_roughness_transform: transform(standard.metallic_roughness_texture),
+        normal_transform: transform(standard.normal_texture),
+        occlusion_transform: transform(standard.occlusion_texture),
+        emissive_transform: transform(standard.emissive_texture),
+        detail_albedo_transform: transform(standard.detail_albedo_texture),
+        detail_normal_transform: transform(standard.detail_normal_texture),
+        ..Zeroable::zeroed()
+    }
+}
+
+/// KHR_texture_transform as two rows: translation * rotation * scale.
+fn transform(map: Option<TextureRef>) -> TextureTransform {
+    let Some(map) = map else {
+        return TextureTransform { row_u: [1.0, 0.0, 0.0], row_v: [0.0, 1.0, 0.0], ..Zeroable::zeroed() };
+    };
+    let (sine, cosine) = map.rotation.sin_cos();
+    TextureTransform {
+        row_u: [cosine * map.scale.x, sine * map.scale.y, map.offset.x],
+        uv_set: map.uv_set,
+        row_v: [-sine * map.scale.x, cosine * map.scale.y, map.offset.y],
+        ..Zeroable::zeroed()
+    }
+}
+
+/// How large a coat's mesh is, in its rest pose and in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoatSize {
+    /// Radius of the mesh in units of its positions, > 0.
+    pub rest_radius: f32,
+    /// The same in world units.
+    pub world_radius_m: f32,
+}
+
+/// The uniform block of a coat of `layers` shells on a mesh of that size.
+pub fn fur_uniforms(fur: &Fur, size: CoatSize, layers: u32) -> FurUniforms {
+    let world = |length: Length| match length {
+        Length::Metres(metres) => metres,
+        Length::Relative(share) => share * size.world_radius_m,
+    };
+    let rest_per_metre = size.rest_radius / size.world_radius_m.max(f32::MIN_POSITIVE);
+    FurUniforms {
+        base_color: fur.base_color.extend(1.0).to_array(),
+        root_color: fur.root_color.to_array(),
+        tip_color: fur.tip_color.to_array(),
+        spot_color: fur.spot_color.to_array(),
+        length_m: world(fur.length),
+        // A spacing of nothing would make infinitely many strands.
+        strand_spacing: (world(fur.strand_spacing) * rest_per_metre).max(size.rest_radius * 1e-5),
+        strand_radius: 0.5 * fur.thickness.max(1e-3),
+        force: (fur.force.normalize_or(Vec3::ZERO) * fur.force_strength).to_array(),
+        color_variation: fur.color_variation,
+        comb: fur.comb.to_array(),
+        cutoff_start: fur.cutoff_start,
+        cutoff_end: fur.cutoff_end,
+        edge_fade: fur.edge_fade,
+        tip_fade: fur.tip_fade,
+        taper: fur.taper,
+        occlusion: fur.occlusion,
+        specular: fur.specular,
+        roughness: fur.roughness,
+        height_strength: fur.height_strength,
+        clump: fur.clump,
+        curl: fur.curl,
+        projection_scale: 1.0 / size.rest_radius,
+        layers,
+        distribution_transform: transform(fur.distribution_map),
+        base_color_transform: transform(fur.base_color_texture),
+        height_transform: transform(fur.height_map),
+        spot_transform: transform(fur.spot_map),
+        ..Zeroable::zeroed()
+    }
+}

@@ -1,0 +1,107 @@
+//! What one frame is asked to be.
+
+use crate::scene::CameraChoice;
+use glam::Vec3;
+
+/// Everything that a frame depends on beside its scene. `Default` is a 1280 x 720 picture of the rest pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameOptions {
+    /// Pixels, each at least 1 and at most what the device allows.
+    pub size: [u32; 2],
+    /// Whose eye.
+    pub camera: CameraChoice,
+    /// Index of the scene; `None` = the file's default.
+    pub scene: Option<usize>,
+    /// Index of the animation clip; `None` = rest pose.
+    pub animation: Option<usize>,
+    /// Seconds into the clip; beyond its end it starts again.
+    pub time_s: f32,
+    /// Index of the KHR_materials_variants variant.
+    pub variant: Option<usize>,
+    /// Tone curve.
+    pub tonemap: Tonemap,
+    /// Stops; radiance is multiplied by 2^exposure.
+    pub exposure_ev: f32,
+    /// What is shown where nothing was drawn.
+    pub background: Background,
+    /// Format of the linear colour target.
+    pub hdr_format: HdrFormat,
+    /// Shells a coat; `None` = what each material says.
+    pub layers: Option<u32>,
+    /// Samples a pixel: 1 or 4.
+    pub msaa: u32,
+}
+
+impl Default for FrameOptions {
+    fn default() -> Self {
+        Self {
+            size: [1280, 720],
+            camera: CameraChoice::Auto,
+            scene: None,
+            animation: None,
+            time_s: 0.0,
+            variant: None,
+            tonemap: Tonemap::Neutral,
+            exposure_ev: 0.0,
+            background: Background::Environment,
+            hdr_format: HdrFormat::Rgba16f,
+            layers: None,
+            msaa: 4,
+        }
+    }
+}
+
+/// Tone curve from linear radiance to display light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Tonemap {
+    /// Clamped.
+    None,
+    /// ACES, Hill's fit, exposed by the usual 1 / 0.6.
+    Aces,
+    /// AgX.
+    Agx,
+    /// Khronos PBR Neutral: colours below 0.8 stay as they are.
+    Neutral,
+}
+
+impl Tonemap {
+    /// Value of the shader's OPERATOR constant.
+    pub(crate) fn operator(self) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Aces => 1,
+            Self::Agx => 2,
+            Self::Neutral => 3,
+        }
+    }
+}
+
+/// What is shown where nothing was drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Background {
+    /// The light's own surroundings: today the constant ambient radiance.
+    Environment,
+    /// Nothing: the picture has an alpha channel.
+    Transparent,
+    /// A colour, linear RGB, shown as it is (no tone curve).
+    Color(Vec3),
+}
+
+/// Format of the linear colour target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum HdrFormat {
+    /// Half floats with alpha.
+    Rgba16f,
+    /// 11, 11 and 10 bits without alpha: half the memory, 2 % (R, G) and 5 % (B) loss over 20 blends.
+    B10g11r11,
+}
+
+impl HdrFormat {
+    /// The Vulkan format.
+    pub(crate) fn vulkan(self) -> ash::vk::Format {
+        match self {
+            Self::Rgba16f => ash::vk::Format::R16G16B16A16_SFLOAT,
+            Self::B10g11r11 => ash::vk::Format::B10G11R11_UFLOAT_PACK32,
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Vertex streams: what a vertex shader's inputs are made from.
+
+use crate::shader::Shader;
+
+/// A vertex attribute of a primitive as the device stores it: one tightly packed list each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stream {
+    /// Three floats, metres.
+    Position,
+    /// Three floats, unit vector.
+    Normal,
+    /// Four floats: unit vector and sign.
+    Tangent,
+    /// Two floats.
+    Uv0,
+    /// Two floats.
+    Uv1,
+    /// Four floats, linear RGBA.
+    Color,
+    /// Three floats: unit vector along which shells are pushed; vertices that share a position share it.
+    ShellDirection,
+}
+
+/// A vertex input and where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Input {
+    /// Location in the shader.
+    pub location: u32,
+    /// Source.
+    pub stream: Stream,
+    /// The rest pose is wanted even where the deform pass moves the stream.
+    pub rest: bool,
+}
+
+impl Stream {
+    /// Bytes a vertex.
+    pub fn stride(self) -> u32 {
+        match self {
+            Self::Position | Self::Normal | Self::ShellDirection => 12,
+            Self::Tangent | Self::Color => 16,
+            Self::Uv0 | Self::Uv1 => 8,
+        }
+    }
+
+    /// The deform shader's STREAM constant; `None` for streams that no pose changes.
+    pub fn deform_kind(self) -> Option<u32> {
+        match self {
+            Self::Position => Some(0),
+            Self::Normal | Self::ShellDirection => Some(1),
+            Self::Tangent => Some(2),
+            Self::Uv0 | Self::Uv1 | Self::Color => None,
+        }
+    }
+}
+
+/// Where each input of a vertex shader comes from, by its GLSL name.
+///
+/// # Panics
+/// On a name that no stream has; a test walks every vertex shader.
+pub fn inputs(vertex: &Shader) -> Vec<Input> {
+    let source = |name: &str| match name {
+        "position" => (Stream::Position, false),
+        "normal" => (Stream::Normal, false),
+        "tangent" => (Stream::Tangent, false),
+        "uv_0" => (Stream::Uv0, false),
+        "uv_1" => (Stream::Uv1, false),
+        "color" => (Stream::Color, false),
+        "shell_direction" => (Stream::ShellDirection, false),
+        "rest_position" => (Stream::Position, true),
+        "rest_direction" => (Stream::ShellDirection, true),
+        other => panic!("no vertex stream is named {other}"),
+    };
+    vertex
+        .inputs
+        .iter()
+        .map(|input| {
+            let (stream, rest) = source(input.name);
+            Input { location: input.location, stream, rest }
+        })
+        .collect()
+}
