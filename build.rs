@@ -1,7 +1,104 @@
-//! Compiles the shaders.
+//! Compiles every line of `shaders_glsl/permutations` to SPIR-V, reflects it, and writes the typed table of shaders and
+//! the host mirrors of their blocks that `src/shader` includes.
+//!
+//! Environment: `VAIR_GLSLANG` names the compiler (default `glslangValidator` on the PATH), `VAIR_SHADER_DEBUG` keeps
+//! source and line information in the SPIR-V for debuggers.
+
+#[path = "build/compile.rs"]
+mod compile;
+#[path = "build/docs.rs"]
+mod docs;
+#[path = "build/include.rs"]
+mod include;
+#[path = "build/interface.rs"]
+mod interface;
+#[path = "build/layout.rs"]
+mod layout;
+#[path = "build/permutation.rs"]
+mod permutation;
+#[path = "build/reflect.rs"]
+mod reflect;
+#[path = "build/table.rs"]
+mod table;
+
+use interface::Interface;
+use permutation::Permutation;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// One permutation, compiled and reflected.
+type Built = (Permutation, Vec<u32>, Interface);
 
 fn main() {
-    let out = std::env::var("OUT_DIR").unwrap();
-    std::fs::write(format!("{out}/shader_table.rs"), "").unwrap();
-    std::fs::write(format!("{out}/shader_layout.rs"), "").unwrap();
+    for input in ["shaders_glsl", "build.rs", "build"] {
+        println!("cargo::rerun-if-changed={input}");
+    }
+    for variable in ["VAIR_GLSLANG", "VAIR_SHADER_DEBUG"] {
+        println!("cargo::rerun-if-env-changed={variable}");
+    }
+    // Cargo shows each `cargo::error` on a line of its own, without the noise of a panicking build script.
+    if let Err(errors) = build() {
+        for line in errors.iter().flat_map(|error| error.lines()) {
+            println!("cargo::error={line}");
+        }
+    }
+}
+
+fn build() -> Result<(), Vec<String>> {
+    let out = std::env::var("OUT_DIR").map_err(|_| vec!["OUT_DIR is not set: build.rs runs under cargo".to_owned()])?;
+    let out = Path::new(&out);
+    let root = Path::new("shaders_glsl");
+    let list = root.join("permutations");
+    let text = std::fs::read_to_string(&list).map_err(|error| vec![format!("{}: {error}", list.display())])?;
+    let permutations = permutation::parse(&text)?;
+
+    let built = build_all(permutations, root, out)?;
+    interface::check(built.iter().map(|(permutation, _, interface)| (permutation, interface)))?;
+    let comments = docs::Comments::read(root).map_err(|error| vec![error])?;
+    let structs = built.iter().flat_map(|(permutation, _, interface)| {
+        interface.structs.iter().map(|layout| (permutation.name(), layout.clone()))
+    });
+    write(&out.join("shader_layout.rs"), &layout::generate(structs, &comments)?)?;
+    write(&out.join("shader_table.rs"), &table::generate(&built))
+}
+
+/// Compiles and reflects on every core, keeping the order of the list and reporting every failure at once.
+fn build_all(permutations: Vec<Permutation>, root: &Path, out: &Path) -> Result<Vec<Built>, Vec<String>> {
+    if permutations.is_empty() {
+        return Ok(Vec::new());
+    }
+    let compiler = compile::Compiler::find().map_err(|error| vec![error])?;
+    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(permutations.len());
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(permutation) = permutations.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let result = compiler.compile(permutation, root, out).and_then(|spirv| {
+                let interface = reflect::reflect(permutation, &spirv)?;
+                Ok((permutation.clone(), spirv, interface))
+            });
+            done.push((permutation.line, result));
+        }
+        done
+    };
+    let mut results: Vec<_> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    });
+    if results.len() != permutations.len() {
+        return Err(vec!["a shader thread of build.rs panicked: see the output above".to_owned()]);
+    }
+    results.sort_by_key(|(line, _)| *line);
+    let (mut built, mut errors) = (Vec::new(), Vec::new());
+    for (_, result) in results {
+        match result {
+            Ok(shader) => built.push(shader),
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(built) } else { Err(errors) }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Vec<String>> {
+    std::fs::write(path, text).map_err(|error| vec![format!("{}: {error}", path.display())])
 }
