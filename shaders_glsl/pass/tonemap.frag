@@ -9,10 +9,10 @@ layout(constant_id = 1) const uint ENCODE_SRGB = 1;   // 0: the target encodes b
 layout(constant_id = 2) const uint HAS_ALPHA = 1;     // 0: the HDR format has no alpha, everything is opaque
 
 struct TonemapDraw {
-    vec3 background;           // linear RGB shown where nothing was drawn, after the tone curve
+    vec3 background;           // linear RGB shown where nothing was drawn, display light
     float exposure;            // factor on radiance
     float background_opacity;  // 0: the picture keeps its alpha (not premultiplied)
-    float _reserved_0;
+    float background_is_light; // 1: the background is radiance and goes through exposure and tone curve
     float _reserved_1;
     float _reserved_2;
 };
@@ -21,20 +21,23 @@ layout(set = 0, binding = 0) uniform texture2D hdr;
 layout(push_constant) uniform TonemapBlock { TonemapDraw draw; };
 layout(location = 0) out vec4 color;
 
+vec3 display_from_radiance(vec3 radiance) {
+    uint operator = OPERATOR;
+    if (operator == 1u) { return tonemap_aces(radiance); }
+    if (operator == 2u) { return tonemap_agx(radiance); }
+    if (operator == 3u) { return tonemap_neutral(radiance); }
+    return clamp(radiance, 0.0, 1.0);
+}
+
 void main() {
     vec4 premultiplied = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0);
     float opacity = HAS_ALPHA != 0u ? clamp(premultiplied.a, 0.0, 1.0) : 1.0;
     // The curve bends radiance, not coverage: divide before it, multiply after it.
     vec3 radiance = max(premultiplied.rgb, vec3(0.0)) * draw.exposure;
     if (opacity > 0.0) { radiance /= opacity; }
-    vec3 display;
-    uint operator = OPERATOR;
-    if (operator == 1u) { display = tonemap_aces(radiance); }
-    else if (operator == 2u) { display = tonemap_agx(radiance); }
-    else if (operator == 3u) { display = tonemap_neutral(radiance); }
-    else { display = clamp(radiance, 0.0, 1.0); }
-
-    vec3 over = mix(draw.background, display, opacity);
+    vec3 display = display_from_radiance(radiance);
+    vec3 background = draw.background_is_light > 0.5 ? display_from_radiance(draw.background * draw.exposure) : draw.background;
+    vec3 over = mix(background, display, opacity);
     vec3 shown = draw.background_opacity > 0.5 ? over : display;
     float alpha = draw.background_opacity > 0.5 ? 1.0 : opacity;
     color = vec4(ENCODE_SRGB != 0u ? srgb_from_linear(shown) : shown, alpha);

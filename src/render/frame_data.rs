@@ -4,9 +4,10 @@ use super::material::{CoatSize, fur_uniforms};
 use super::options::FrameOptions;
 use super::plan::{Draw, DrawKind, Plan, fur_maps};
 use super::resources::Resources;
+use super::Shot;
 use super::stream::Stream;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
-use crate::scene::{Camera, LightShape, Lighting, Pose, Scene, joint_matrices};
+use crate::scene::{Camera, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
 use bytemuck::{NoUninit, Zeroable};
@@ -33,8 +34,8 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    #[allow(clippy::too_many_arguments)]
-    pub fn new(gpu: &Gpu, resources: &mut Resources, scene: &Scene, plan: &Plan, pose: &Pose, camera: &Camera, lighting: &Lighting, options: &FrameOptions) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, resources: &mut Resources, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Self, GpuError> {
+        let Shot { plan, pose, camera, lighting } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
         let frame = frame_uniforms(camera, lighting, options);
@@ -142,7 +143,7 @@ fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) 
         clip_from_world: camera.clip_from_world().to_cols_array_2d(),
         eye_in_world: camera.eye_in_world().to_array(),
         light_count: lighting.lights.len() as u32,
-        view_in_world: camera.view_in_world().to_array(),
+        view_in_world: camera.backwards_in_world().to_array(),
         orthographic: if camera.is_orthographic() { 1.0 } else { 0.0 },
         ambient_radiance: lighting.ambient_radiance.to_array(),
         sample_count: options.msaa,
@@ -157,5 +158,23 @@ fn object_uniforms(world_from_object: Mat4) -> ObjectUniforms {
     ObjectUniforms {
         world_from_object: world_from_object.to_cols_array_2d(),
         normal_from_object: Mat4::from_mat3(normal).to_cols_array_2d(),
+    }
+}
+
+fn light_source(light: &Light) -> LightSource {
+    let (kind, spot_scale, spot_offset) = match light.kind {
+        LightKind::Directional => (0, 0.0, 0.0),
+        LightKind::Point => (1, 0.0, 0.0),
+        LightKind::Spot { angle_scale, angle_offset } => (2, angle_scale, angle_offset),
+    };
+    LightSource {
+        position_in_world: light.position_in_world.to_array(),
+        range_m: light.range_m.unwrap_or(0.0),
+        direction_to_light: light.direction_to_light_in_world.to_array(),
+        kind,
+        intensity: light.intensity.to_array(),
+        spot_scale,
+        spot_offset,
+        ..Zeroable::zeroed()
     }
 }

@@ -1,1 +1,271 @@
-//! render.
+//! From a scene to a picture.
+//!
+//! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
+//! what is needed), the resources make what the plan lists, and the frame records the passes.
+
+mod frame;
+mod frame_data;
+mod geometry;
+mod material;
+mod options;
+mod pass;
+mod picture;
+mod pipeline;
+mod plan;
+mod report;
+mod resources;
+mod stream;
+mod targets;
+mod texture;
+
+pub use options::{Background, FrameOptions, HdrFormat, Tonemap};
+pub use picture::{Picture, PictureFormat};
+pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
+pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
+pub use report::{CoatReport, FrameReport};
+pub use stream::Stream;
+
+use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
+use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
+use ash::vk;
+use glam::Vec4;
+use resources::Resources;
+use std::path::PathBuf;
+use std::time::Instant;
+use targets::Targets;
+
+/// Longest wait for one frame: a software device may take long, a lost one must not hang the caller.
+const FRAME_TIMEOUT_MS: u64 = 600_000;
+
+/// Why a picture could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The device failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The scene lacks what the options name.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An option is out of its range.
+    #[error("{option}: {problem}")]
+    Option {
+        /// Which.
+        option: &'static str,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// A picture could not be encoded.
+    #[error("{format} encoder: {problem}")]
+    Encode {
+        /// File format.
+        format: &'static str,
+        /// What it said.
+        problem: String,
+    },
+    /// A file name has no ending that names a picture format.
+    #[error("{}: name the picture .png (display colour) or .exr (linear light)", path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A picture could not be written.
+    #[error("{}: {source}; choose a folder that exists and can be written", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Cause.
+        source: std::io::Error,
+    },
+}
+
+/// A scene at one moment through one camera, and what drawing it takes. Plain data, made without a device.
+pub struct Shot {
+    /// Where every node is.
+    pub pose: Pose,
+    /// Whose eye.
+    pub camera: Camera,
+    /// Lights and surroundings.
+    pub lighting: Lighting,
+    /// What the frame needs.
+    pub plan: Plan,
+}
+
+impl Shot {
+    /// Poses, frames and plans.
+    ///
+    /// # Errors
+    /// When an option is out of range or names what the scene lacks.
+    pub fn new(scene: &Scene, options: &FrameOptions) -> Result<Self, RenderError> {
+        options.check(&scene.asset)?;
+        let asset = &scene.asset;
+        let scene_index = options.scene.unwrap_or(asset.default_scene);
+        let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {
+            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => options.time_s.rem_euclid(duration_s),
+            _ => options.time_s,
+        };
+        let pose = scene::pose(asset, options.animation, time_s);
+        let instances = scene::instances(asset, scene_index, &pose, options.variant);
+        let bounds = scene::world_bounds(asset, scene_index, &pose);
+        let aspect = options.size[0] as f32 / options.size[1] as f32;
+        Ok(Self {
+            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, bounds)?,
+            lighting: scene::lighting(asset, scene_index, &pose),
+            plan: Plan::new(scene, instances, options),
+            pose,
+        })
+    }
+}
+
+/// Renders scenes on one device. What a scene keeps there stays until another scene is rendered.
+pub struct Renderer {
+    gpu: Gpu,
+    resources: Resources,
+    targets: Option<Targets>,
+    picture: Option<Image>,
+    /// Which scene the resources belong to.
+    scene: Option<u64>,
+}
+
+impl Renderer {
+    /// On a device of its own.
+    ///
+    /// # Errors
+    /// When there is no usable Vulkan 1.3 device; the error says what each one lacks.
+    pub fn new(options: &GpuOptions) -> Result<Self, RenderError> {
+        Self::with_gpu(Gpu::new(options)?)
+    }
+
+    /// On a device that is there already, such as the host's ([`Gpu::from_host`]).
+    ///
+    /// # Errors
+    /// When the device is out of memory.
+    pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
+        Ok(Self { resources: Resources::new(&gpu)?, gpu, targets: None, picture: None, scene: None })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Text of every pipeline made so far: whole state and interface, sorted.
+    pub fn pipeline_descriptions(&self) -> Vec<String> {
+        let mut all: Vec<String> = self.resources.pipelines().map(|pipeline| pipeline.description().to_owned()).collect();
+        all.sort();
+        all
+    }
+
+    /// One picture, waited for.
+    ///
+    /// # Errors
+    /// Those of [`Shot::new`] and of the device.
+    pub fn render(&mut self, scene: &Scene, options: &FrameOptions) -> Result<Picture, RenderError> {
+        Ok(self.render_reported(scene, options, false)?.0)
+    }
+
+    /// One picture and its report; `keep_radiance` reads the linear colour back, too.
+    ///
+    /// # Errors
+    /// Those of [`Shot::new`] and of the device.
+    pub fn render_reported(&mut self, scene: &Scene, options: &FrameOptions, keep_radiance: bool) -> Result<(Picture, FrameReport), RenderError> {
+        let start = Instant::now();
+        let shot = Shot::new(scene, options)?;
+        let target = self.picture_target(options.size)?;
+        let mut encoder = self.gpu.encoder("frame")?;
+        self.record_shot(&mut encoder, scene, &shot, options, &target)?;
+        let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
+        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+
+        let mut radiance = Vec::new();
+        if keep_radiance && let Some(targets) = &self.targets {
+            radiance = decode_radiance(options.hdr_format, &self.gpu.read_image(targets.hdr())?);
+        }
+        let picture = Picture {
+            size: options.size,
+            rgba: self.gpu.read_image(&target)?,
+            radiance,
+            background: match options.background {
+                Background::Environment => Some(shot.lighting.ambient_radiance),
+                Background::Color(color) => Some(color),
+                Background::Transparent => None,
+            },
+        };
+        let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
+        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory());
+        Ok((picture, report))
+    }
+
+    /// Records one frame into an encoder, which may be on the host's own command buffer
+    /// ([`Gpu::encoder_on_host`]); `target` is a colour attachment of `options.size`.
+    ///
+    /// # Errors
+    /// Those of [`Shot::new`] and of the device.
+    pub fn record(&mut self, encoder: &mut Encoder, scene: &Scene, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+        let shot = Shot::new(scene, options)?;
+        self.record_shot(encoder, scene, &shot, options, target)
+    }
+
+    fn record_shot(&mut self, encoder: &mut Encoder, scene: &Scene, shot: &Shot, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+        if self.scene.replace(scene.id()) != Some(scene.id()) {
+            self.resources.forget_scene();
+        }
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
+            // The old ones go first: two sets need not fit at once.
+            self.targets = None;
+        }
+        let targets = match self.targets.take() {
+            Some(targets) => targets,
+            None => Targets::new(&self.gpu, options)?,
+        };
+        let targets = self.targets.insert(targets);
+        frame::record(&self.gpu, encoder, scene, shot, options, &mut self.resources, targets, target)
+    }
+
+    fn picture_target(&mut self, size: [u32; 2]) -> Result<Image, RenderError> {
+        if let Some(picture) = self.picture.as_ref().filter(|picture| picture.size() == size) {
+            return Ok(picture.clone());
+        }
+        self.picture = None;
+        let picture = self.gpu.image(&ImageDesc {
+            name: "picture",
+            size,
+            format: vk::Format::R8G8B8A8_UNORM,
+            mip_levels: 1,
+            samples: 1,
+            usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
+        })?;
+        Ok(self.picture.insert(picture).clone())
+    }
+}
+
+/// HDR texels as floats.
+fn decode_radiance(format: HdrFormat, bytes: &[u8]) -> Vec<Vec4> {
+    match format {
+        HdrFormat::Rgba16f => bytes
+            .chunks_exact(8)
+            .map(|texel| {
+                let half = |index: usize| half::f16::from_le_bytes([texel[index * 2], texel[index * 2 + 1]]).to_f32();
+                Vec4::new(half(0), half(1), half(2), half(3))
+            })
+            .collect(),
+        HdrFormat::B10g11r11 => bytes
+            .chunks_exact(4)
+            .map(|texel| {
+                let word = u32::from_le_bytes([texel[0], texel[1], texel[2], texel[3]]);
+                Vec4::new(small_float(word & 0x7ff, 6), small_float((word >> 11) & 0x7ff, 6), small_float(word >> 22, 5), 1.0)
+            })
+            .collect(),
+    }
+}
+
+/// Unsigned float of five exponent bits and `mantissa_bits` (Vulkan 1.3, "Unsigned 11-Bit Floating-Point Numbers").
+fn small_float(bits: u32, mantissa_bits: u32) -> f32 {
+    let mantissa = (bits & ((1 << mantissa_bits) - 1)) as f32 / (1 << mantissa_bits) as f32;
+    match bits >> mantissa_bits {
+        0 => mantissa * 2f32.powi(-14),
+        31 if mantissa == 0.0 => f32::INFINITY,
+        31 => f32::NAN,
+        exponent => (1.0 + mantissa) * 2f32.powi(exponent as i32 - 15),
+    }
+}

@@ -1,5 +1,7 @@
 //! What one frame is asked to be.
 
+use super::RenderError;
+use crate::asset::Asset;
 use crate::scene::CameraChoice;
 use glam::Vec3;
 
@@ -51,6 +53,38 @@ impl Default for FrameOptions {
     }
 }
 
+impl FrameOptions {
+    /// Says which option is out of its range or names what the file lacks.
+    pub(super) fn check(&self, asset: &Asset) -> Result<(), RenderError> {
+        let wrong = |option, problem: String| Err(RenderError::Option { option, problem });
+        if self.size.contains(&0) {
+            return wrong("size", format!("{}x{} has no pixels; both sides must be at least 1", self.size[0], self.size[1]));
+        }
+        if !matches!(self.msaa, 1 | 4) {
+            return wrong("msaa", format!("{} samples are not supported; choose 1 or 4", self.msaa));
+        }
+        if self.layers.is_some_and(|layers| !(1..=256).contains(&layers)) {
+            return wrong("layers", "the number of shells must be 1 to 256".to_owned());
+        }
+        if !self.time_s.is_finite() || !self.exposure_ev.is_finite() {
+            return wrong("time and exposure", "must be finite numbers".to_owned());
+        }
+        if self.background == Background::Transparent && !self.hdr_format.has_alpha() {
+            return wrong("background", "b10g11r11 has no alpha; use rgba16f for a transparent background".to_owned());
+        }
+        for (option, index, count) in [
+            ("scene", self.scene, asset.scenes.len()),
+            ("animation", self.animation, asset.animations.len()),
+            ("variant", self.variant, asset.variants.len()),
+        ] {
+            if let Some(index) = index.filter(|index| *index >= count) {
+                return wrong(option, format!("there is no {option} {index}; the file has {count}"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Tone curve from linear radiance to display light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Tonemap {
@@ -97,6 +131,11 @@ pub enum HdrFormat {
 }
 
 impl HdrFormat {
+    /// Whether coverage is kept beside colour.
+    pub fn has_alpha(self) -> bool {
+        self == Self::Rgba16f
+    }
+
     /// The Vulkan format.
     pub(crate) fn vulkan(self) -> ash::vk::Format {
         match self {

@@ -148,7 +148,7 @@ impl Plan {
         let fur = scene.materials[material].fur.as_ref().filter(|_| geometry.topology == Topology::Triangles);
 
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
-        let standard = scene.standard(surface);
+        let standard = scene.standard(surface.material, surface.under_fur);
         self.add_draw(scene, index, PipelineSpec::surface(&standard, geometry, options), DrawKind::Surface(surface));
         self.add_textures(scene, &surface_maps(&standard));
 

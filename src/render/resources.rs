@@ -86,6 +86,16 @@ impl Resources {
         upload.finish()
     }
 
+    /// Drops what belongs to one scene; pipelines and samplers serve the next one, too.
+    pub fn forget_scene(&mut self) {
+        self.streams.clear();
+        self.indices.clear();
+        self.influences.clear();
+        self.morph_deltas.clear();
+        self.images.clear();
+        self.surfaces.clear();
+    }
+
     /// A pipeline that [`Self::prepare`] made.
     pub fn pipeline(&self, spec: &PipelineSpec) -> &Pipeline {
         &self.pipelines[spec]

@@ -1,0 +1,72 @@
+//! The draws of the opaque, fur and transparent passes: surfaces and shells.
+//!
+//! In: vertex streams, materials, frame data. Out: linear HDR colour (premultiplied alpha) and reversed depth.
+//! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first.
+
+use crate::asset::Topology;
+use crate::gpu::RenderPass;
+use crate::render::frame_data::FrameData;
+use crate::render::pipeline::shader;
+use crate::render::plan::{Draw, DrawKind, Plan};
+use crate::render::resources::Resources;
+use crate::render::stream::inputs;
+use crate::scene::{Camera, Scene};
+use crate::shader::layout::ObjectDraw;
+use ash::vk::{CullModeFlags, FrontFace};
+
+/// Records draws in their order.
+pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan, resources: &Resources, data: &FrameData) {
+    let mut bound = None;
+    for draw in draws {
+        let spec = &plan.pipelines[draw.pipeline];
+        if bound.replace(draw.pipeline) != Some(draw.pipeline) {
+            pass.pipeline(resources.pipeline(spec));
+            let (frame, objects) = &data.shared_groups[&draw.pipeline];
+            pass.bind(0, frame);
+            pass.bind(2, objects);
+        }
+        let instance = &plan.instances[draw.instance];
+        let index = (instance.mesh, instance.primitive);
+        let primitive = &scene.asset.meshes[index.0].primitives[index.1];
+        let (material, layers, double_sided) = match draw.kind {
+            DrawKind::Surface(surface) => {
+                (resources.surface(surface, spec), 1, scene.materials[surface.material].standard.double_sided)
+            }
+            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, false),
+        };
+        pass.bind(1, material);
+        for input in inputs(shader(&spec.vertex)) {
+            let moved = data.deformed.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
+            match moved.or_else(|| resources.streams.get(&(index, input.stream))) {
+                Some(stream) => pass.vertices(input.location, stream, 0, input.stream.stride()),
+                None => pass.vertices(input.location, &resources.absent, 0, 0),
+            }
+        }
+        pass.indices(&resources.indices[&index], 0);
+        pass.push(&ObjectDraw { object_index: draw.instance as u32 });
+        let front = if instance.mirrored { FrontFace::CLOCKWISE } else { FrontFace::COUNTER_CLOCKWISE };
+        let count = primitive.indices.len() as u32;
+        if double_sided && spec.blend && primitive.topology == Topology::Triangles {
+            // What lies behind must be blended first.
+            pass.cull(CullModeFlags::FRONT, front);
+            pass.draw_indexed(count, layers, 0, 0);
+            pass.cull(CullModeFlags::BACK, front);
+        } else {
+            pass.cull(if double_sided { CullModeFlags::NONE } else { CullModeFlags::BACK }, front);
+        }
+        pass.draw_indexed(count, layers, 0, 0);
+    }
+}
+
+/// Draws from far to near, by the middle of each object's bounds.
+pub fn far_to_near(draws: &[Draw], scene: &Scene, plan: &Plan, camera: &Camera) -> Vec<Draw> {
+    let depth = |draw: &Draw| {
+        let instance = &plan.instances[draw.instance];
+        let middle = instance.world_from_object.transform_point3(scene.middle_in_object(instance));
+        (middle - camera.eye_in_world()).dot(-camera.backwards_in_world())
+    };
+    let mut sorted: Vec<(f32, Draw)> = draws.iter().map(|draw| (depth(draw), *draw)).collect();
+    // A coat lies over its own skin: at equal depth the order of the plan holds, since the sort is stable.
+    sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sorted.into_iter().map(|(_, draw)| draw).collect()
+}

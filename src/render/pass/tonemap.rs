@@ -1,0 +1,36 @@
+//! Linear HDR to the picture: exposure, tone curve, background, display encoding.
+//!
+//! In: linear HDR colour, premultiplied, one sample. Out: display colour in the target's format; alpha is 1 or, with
+//! a transparent background, the coverage (colour not premultiplied). Cost: one texel fetch a pixel.
+//! Twin: `material::reference::tonemap`.
+
+use crate::gpu::{BindGroup, ColorTarget, Encoder, Image, Load, Pipeline, RenderPassDesc};
+use crate::render::options::{Background, FrameOptions};
+use crate::render::plan::Pass;
+use crate::shader::layout::TonemapDraw;
+use bytemuck::Zeroable;
+use glam::Vec3;
+
+/// Records the pass.
+pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3, pipeline: &Pipeline, group: &BindGroup, hdr: &Image, target: &Image) {
+    let draw = TonemapDraw {
+        background: match options.background {
+            Background::Environment => surroundings,
+            Background::Transparent => Vec3::ZERO,
+            Background::Color(color) => color,
+        }
+        .to_array(),
+        exposure: options.exposure_ev.exp2(),
+        background_opacity: if options.background == Background::Transparent { 0.0 } else { 1.0 },
+        background_is_light: if options.background == Background::Environment { 1.0 } else { 0.0 },
+        ..Zeroable::zeroed()
+    };
+    let color = [ColorTarget { image: target, load: Load::Discard, store: true, resolve: None }];
+    let desc = RenderPassDesc { name: Pass::Tonemap.name(), size: options.size, color: &color, depth: None, sampled: &[hdr] };
+    encoder.render_pass(&desc, |pass| {
+        pass.pipeline(pipeline);
+        pass.bind(0, group);
+        pass.push(&draw);
+        pass.draw(3, 1);
+    });
+}

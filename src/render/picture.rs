@@ -1,0 +1,115 @@
+//! A rendered picture on the host, and its files.
+
+use super::RenderError;
+use glam::{Vec3, Vec4};
+use std::io::Write;
+use std::path::Path;
+
+/// A rendered picture.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// Pixels: width, height.
+    pub size: [u32; 2],
+    /// Display colour, sRGB-coded, `width * height * 4` bytes, rows from the top; alpha is not premultiplied.
+    pub rgba: Vec<u8>,
+    /// Linear HDR radiance before exposure and tone curve, premultiplied, rows from the top; empty unless asked for.
+    pub radiance: Vec<Vec4>,
+    /// What stands behind where nothing was drawn, linear RGB; `None` with a transparent background.
+    pub background: Option<Vec3>,
+}
+
+impl Picture {
+    /// The display colour of a pixel.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        let first = (y as usize * self.size[0] as usize + x as usize) * 4;
+        [0, 1, 2, 3].map(|channel| self.rgba[first + channel])
+    }
+
+    /// The linear radiance of a pixel, premultiplied.
+    ///
+    /// # Panics
+    /// Outside the picture, or when radiance was not asked for.
+    pub fn radiance(&self, x: u32, y: u32) -> Vec4 {
+        self.radiance[y as usize * self.size[0] as usize + x as usize]
+    }
+
+    /// The file as bytes: PNG (display colour) or EXR (linear radiance, 32-bit float, background behind it).
+    ///
+    /// # Errors
+    /// When the encoder refuses, or `format` is EXR and the radiance was not asked for.
+    pub fn encode(&self, format: PictureFormat) -> Result<Vec<u8>, RenderError> {
+        let mut bytes = Vec::new();
+        match format {
+            PictureFormat::Png => {
+                let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
+                let [width, height] = self.size;
+                image::ImageEncoder::write_image(encoder, &self.rgba, width, height, image::ExtendedColorType::Rgba8)
+                    .map_err(|error| RenderError::Encode { format: "PNG", problem: error.to_string() })?;
+            }
+            PictureFormat::Exr => self.encode_exr(&mut bytes)?,
+        }
+        Ok(bytes)
+    }
+
+    /// Writes the file whole or not at all: to a temporary file beside it, then renamed.
+    ///
+    /// # Errors
+    /// When the ending is neither .png nor .exr, the encoder refuses, or the folder cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), RenderError> {
+        let path = path.as_ref();
+        let bytes = self.encode(PictureFormat::of(path)?)?;
+        let write = || -> std::io::Result<()> {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            let mut file = tempfile::NamedTempFile::new_in(folder)?;
+            file.write_all(&bytes)?;
+            file.persist(path)?;
+            Ok(())
+        };
+        write().map_err(|source| RenderError::Write { path: path.to_owned(), source })
+    }
+
+    fn encode_exr(&self, bytes: &mut Vec<u8>) -> Result<(), RenderError> {
+        use exr::prelude::*;
+        let [width, height] = self.size.map(|side| side as usize);
+        if self.radiance.len() != width * height {
+            return Err(RenderError::Encode { format: "EXR", problem: "the frame kept no linear radiance".to_owned() });
+        }
+        let pixel = |position: Vec2<usize>| {
+            let color = self.radiance[position.1 * width + position.0];
+            let behind = self.background.map_or(Vec4::ZERO, |background| background.extend(1.0) * (1.0 - color.w));
+            let shown = color + behind;
+            (shown.x, shown.y, shown.z, shown.w)
+        };
+        let image = Image::from_channels((width, height), SpecificChannels::rgba(pixel));
+        image
+            .write()
+            .to_buffered(std::io::Cursor::new(bytes))
+            .map_err(|error| RenderError::Encode { format: "EXR", problem: error.to_string() })
+    }
+}
+
+/// File format of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// 8-bit display colour.
+    Png,
+    /// 32-bit linear radiance.
+    Exr,
+}
+
+impl PictureFormat {
+    /// By the file's ending.
+    ///
+    /// # Errors
+    /// When it is neither .png nor .exr.
+    pub fn of(path: &Path) -> Result<Self, RenderError> {
+        match path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("png") => Ok(Self::Png),
+            Some("exr") => Ok(Self::Exr),
+            _ => Err(RenderError::Ending { path: path.to_owned() }),
+        }
+    }
+}

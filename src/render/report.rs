@@ -1,0 +1,64 @@
+//! What one frame took: times, draws, memory, and what it left out.
+
+use super::plan::{DrawKind, LeftOut, Plan};
+use crate::gpu::{FrameTimes, MemoryReport, PassTime};
+use crate::scene::Scene;
+
+/// What one frame took.
+#[derive(Debug, Clone)]
+pub struct FrameReport {
+    /// From the call to the finished frame, wall clock, milliseconds; reading it back is not in it.
+    pub frame_ms: f64,
+    /// Creation of every pipeline so far, milliseconds.
+    pub pipelines_ms: f64,
+    /// Passes in order.
+    pub passes: Vec<PassTime>,
+    /// Coats.
+    pub fur: Vec<CoatReport>,
+    /// Device memory.
+    pub memory: MemoryReport,
+    /// What the frame did without.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// A coat that was drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CoatReport {
+    /// Name of its material.
+    pub material: String,
+    /// Shells.
+    pub layers: u32,
+    /// Instances drawn: shells of all objects with this material.
+    pub instances: u32,
+    /// Vertices on the device: those of the mesh, once.
+    pub vertices_stored: u32,
+}
+
+impl FrameReport {
+    pub(super) fn new(scene: &Scene, plan: &Plan, times: FrameTimes, frame_ms: f64, pipelines_ms: f64, memory: MemoryReport) -> Self {
+        Self { frame_ms, pipelines_ms, passes: times.passes, fur: coats(scene, plan), memory, left_out: plan.left_out.clone() }
+    }
+}
+
+fn coats(scene: &Scene, plan: &Plan) -> Vec<CoatReport> {
+    let mut coats: Vec<(usize, CoatReport, Vec<(usize, usize)>)> = Vec::new();
+    for draw in plan.fur.iter().chain(&plan.transparent) {
+        let DrawKind::Fur { material, layers } = draw.kind else { continue };
+        let instance = &plan.instances[draw.instance];
+        let index = (instance.mesh, instance.primitive);
+        let vertices = scene.asset.meshes[index.0].primitives[index.1].vertices.positions.len() as u32;
+        let known = coats.iter().position(|(known, ..)| *known == material);
+        let place = known.unwrap_or_else(|| {
+            let name = scene.materials[material].name.clone();
+            coats.push((material, CoatReport { material: name, layers, instances: 0, vertices_stored: 0 }, Vec::new()));
+            coats.len() - 1
+        });
+        let (_, coat, meshes) = &mut coats[place];
+        coat.instances += layers;
+        if !meshes.contains(&index) {
+            meshes.push(index);
+            coat.vertices_stored += vertices;
+        }
+    }
+    coats.into_iter().map(|(_, coat, _)| coat).collect()
+}
