@@ -1,3 +1,7 @@
-//! The `vair` program; everything it does lives in the library's `cli` room.
+//! The `vair` program. Everything it can do is in the library; this is its command line.
 
-fn main() {}
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::run()
+}

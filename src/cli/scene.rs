@@ -1,0 +1,156 @@
+//! Options that choose a scene and a view of it; `render` and `inspect` share them.
+
+use super::values;
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use glam::Vec3;
+use std::path::{Path, PathBuf};
+use vair::asset::LoadOptions;
+use vair::material::Look;
+use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
+use vair::scene::{self, CameraChoice, Scene};
+
+/// What to show.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// A .gltf or .glb file; without one, the embedded gallery.
+    pub scene_file: Option<PathBuf>,
+    /// Materials for glTF material names, in TOML.
+    #[arg(long, value_name = "FILE.toml")]
+    look: Option<PathBuf>,
+    /// A preset for every material, or for one.
+    #[arg(long, value_name = "NAME[=MATERIAL]")]
+    preset: Option<String>,
+    /// Lets a scene or look read files outside its own folder.
+    #[arg(long)]
+    allow_outside: bool,
+    /// Most memory that a scene's data may take, in MiB.
+    #[arg(long, value_name = "MIB", default_value_t = 4096)]
+    memory_limit: u64,
+    /// Scene of the file, by name or index.
+    #[arg(long, value_name = "NAME/INDEX")]
+    scene: Option<String>,
+    /// Animation clip, by name or index.
+    #[arg(long, value_name = "NAME/INDEX")]
+    animation: Option<String>,
+    /// Seconds into the clip.
+    #[arg(long, value_name = "S", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
+    time: f32,
+    /// KHR_materials_variants variant, by name or index.
+    #[arg(long, value_name = "NAME/INDEX")]
+    variant: Option<String>,
+    /// Pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
+    size: [u32; 2],
+    /// A camera of the file, by name or index; without one, the scene is framed.
+    #[arg(long, value_name = "NAME/INDEX", value_parser = values::camera, conflicts_with_all = ["orbit", "target", "fov"])]
+    camera: Option<CameraChoice>,
+    /// Eye on a sphere around the target: degrees around Y, degrees from Y, metres.
+    #[arg(long, value_name = "THETA,PHI,RADIUS", value_parser = values::orbit, allow_hyphen_values = true)]
+    orbit: Option<(f32, f32, Option<f32>)>,
+    /// What the eye looks at; without one, the middle of the scene.
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    target: Option<Vec3>,
+    /// Vertical field of view in degrees.
+    #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
+    fov: Option<f32>,
+    /// Shells a coat, or auto for what each material says.
+    #[arg(long, value_name = "N/auto", default_value = "auto", value_parser = values::layers)]
+    layers: LayerChoice,
+    /// Samples a pixel.
+    #[arg(long, value_name = "1/4", default_value = "4", value_parser = ["1", "4"])]
+    msaa: String,
+    /// Format of the linear colour target.
+    #[arg(long, value_enum, default_value_t = HdrChoice::Rgba16f)]
+    hdr_format: HdrChoice,
+    /// Tone curve.
+    #[arg(long, value_enum, default_value_t = TonemapChoice::Neutral)]
+    tonemap: TonemapChoice,
+    /// Exposure in stops.
+    #[arg(long, value_name = "EV", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
+    exposure: f32,
+    /// What stands behind: env, transparent, or a colour in sRGB.
+    #[arg(long, value_name = "env/transparent/R,G,B", default_value = "env", value_parser = values::background)]
+    background: Background,
+}
+
+type LayerChoice = Option<u32>;
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum HdrChoice {
+    Rgba16f,
+    B10g11r11,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TonemapChoice {
+    Aces,
+    Agx,
+    Neutral,
+    None,
+}
+
+impl SceneArguments {
+    /// Loads the scene and puts look and preset on it.
+    pub fn load(&self) -> Result<Scene> {
+        let limits = LoadOptions {
+            allow_outside: self.allow_outside,
+            memory_limit_bytes: self.memory_limit.saturating_mul(1 << 20),
+        };
+        let mut scene = match &self.scene_file {
+            Some(path) => Scene::load(path, &limits)?,
+            None => Scene::gallery(),
+        };
+        if let Some(preset) = &self.preset {
+            let (name, material) = preset.split_once('=').map_or((preset.as_str(), None), |(name, material)| (name, Some(material)));
+            scene.apply(&Look::preset(name, material)?, Path::new("."), &limits)?;
+        }
+        if let Some(path) = &self.look {
+            let text = std::fs::read_to_string(path).with_context(|| format!("look {}", path.display()))?;
+            let look = Look::parse(&text, &path.display().to_string())?;
+            scene.apply(&look, path.parent().unwrap_or(Path::new(".")), &limits)?;
+        }
+        Ok(scene)
+    }
+
+    /// The frame that these options ask for.
+    pub fn frame_options(&self, scene: &Scene) -> Result<FrameOptions> {
+        let asset = &scene.asset;
+        let named = |text: &Option<String>, find: fn(&vair::asset::Asset, &str) -> Result<usize, scene::SceneError>| {
+            text.as_deref().map(|text| find(asset, text)).transpose()
+        };
+        Ok(FrameOptions {
+            size: self.size,
+            camera: self.camera_choice(),
+            scene: named(&self.scene, scene::find_scene)?,
+            animation: named(&self.animation, scene::find_animation)?,
+            time_s: self.time,
+            variant: named(&self.variant, scene::find_variant)?,
+            tonemap: match self.tonemap {
+                TonemapChoice::Aces => Tonemap::Aces,
+                TonemapChoice::Agx => Tonemap::Agx,
+                TonemapChoice::Neutral => Tonemap::Neutral,
+                TonemapChoice::None => Tonemap::None,
+            },
+            exposure_ev: self.exposure,
+            background: self.background,
+            hdr_format: match self.hdr_format {
+                HdrChoice::Rgba16f => HdrFormat::Rgba16f,
+                HdrChoice::B10g11r11 => HdrFormat::B10g11r11,
+            },
+            layers: self.layers,
+            msaa: if self.msaa == "1" { 1 } else { 4 },
+        })
+    }
+
+    fn camera_choice(&self) -> CameraChoice {
+        if let Some(camera) = &self.camera {
+            return camera.clone();
+        }
+        if self.orbit.is_none() && self.target.is_none() && self.fov.is_none() {
+            return CameraChoice::Auto;
+        }
+        let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::AUTO_THETA_DEG, scene::AUTO_PHI_DEG, None));
+        CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::AUTO_FOV_DEG) }
+    }
+}
