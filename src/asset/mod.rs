@@ -1,4 +1,47 @@
-//! Files or formulas to plain data.
+//! Files to plain data: glTF 2.0 (.gltf and .glb) and the pictures they use.
+//!
+//! [`load`] trusts nothing in a file. It works in this order, and each step sees only what the one
+//! before it has checked:
+//!
+//! 1. `container` splits GLB from JSON; `document` gives the JSON its shape; `extension` refuses
+//!    required extensions that would change what the file means.
+//! 2. `accessor` turns buffers into numbers: every range checked, every number finite, every byte
+//!    counted against [`LoadOptions::memory_limit_bytes`] before it is allocated.
+//! 3. `node`, `mesh`, `skin`, `material`, `animation` and the rest fill an [`Asset`], whose doc
+//!    comments are the promises that later rooms rely on.
+//!
+//! What is wrong but has one plain reading becomes a line of [`Asset::warnings`]; what is not
+//! becomes an [`AssetError`] that names file, field and remedy. No input panics.
+//!
+//! Source: Khronos, "glTF 2.0 Specification" (2021) and the KHR extensions named in `extension`.
 
+mod accessor;
+mod animation;
+mod camera;
+mod container;
+mod context;
+mod document;
+mod error;
+mod extension;
+mod gltf;
+mod image;
+mod influence;
+mod light;
+mod material;
+mod mesh;
 mod model;
+mod morph;
+mod node;
+mod normal;
+mod skin;
+mod tangent;
+mod texture;
+mod topology;
+mod uri;
+
+pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
+pub use error::AssetError;
+pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use model::*;
+pub use tangent::generate_tangents;
+pub use uri::read_inside;

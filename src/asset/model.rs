@@ -107,7 +107,7 @@ impl Transform {
 pub struct Mesh {
     /// Name in the file.
     pub name: Option<String>,
-    /// At least one.
+    /// At least one, unless each was skipped with a warning.
     pub primitives: Vec<Primitive>,
     /// Default morph weights, one per target.
     pub weights: Vec<f32>,

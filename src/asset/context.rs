@@ -1,0 +1,104 @@
+//! What every step of one load shares: the file's name, its budget, its warnings.
+
+use super::{AssetError, LoadOptions};
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+/// Shared by reference; the cells let steps that borrow from one another still count and warn.
+pub(super) struct Context {
+    file: String,
+    pub(super) folder: PathBuf,
+    pub(super) allow_outside: bool,
+    limit_bytes: u64,
+    spent_bytes: Cell<u64>,
+    warnings: RefCell<Vec<String>>,
+    seen: RefCell<HashSet<String>>,
+}
+
+impl Context {
+    pub(super) fn new(path: &Path, options: &LoadOptions) -> Self {
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+            _ => PathBuf::from("."),
+        };
+        Self {
+            file: path.display().to_string(),
+            folder,
+            allow_outside: options.allow_outside,
+            limit_bytes: options.memory_limit_bytes,
+            spent_bytes: Cell::new(0),
+            warnings: RefCell::default(),
+            seen: RefCell::default(),
+        }
+    }
+
+    pub(super) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The file breaks the format at `field`.
+    pub(super) fn error(&self, field: impl Display, problem: impl Display) -> AssetError {
+        AssetError::Format { file: self.file.clone(), field: field.to_string(), problem: problem.to_string() }
+    }
+
+    pub(super) fn unsupported(&self, field: impl Display, feature: impl Display) -> AssetError {
+        AssetError::Unsupported { file: self.file.clone(), field: field.to_string(), feature: feature.to_string() }
+    }
+
+    pub(super) fn outside(&self, field: impl Display, uri: &str) -> AssetError {
+        AssetError::Outside { file: self.file.clone(), field: field.to_string(), uri: uri.to_owned() }
+    }
+
+    /// Notes an oddity; the same line is kept once.
+    pub(super) fn warn(&self, field: impl Display, problem: impl Display) {
+        let line = format!("{field}: {problem}");
+        if self.seen.borrow_mut().insert(line.clone()) {
+            self.warnings.borrow_mut().push(line);
+        }
+    }
+
+    pub(super) fn into_warnings(self) -> Vec<String> {
+        self.warnings.into_inner()
+    }
+
+    /// Counts bytes against the limit; call before allocating them.
+    pub(super) fn spend(&self, field: impl Display, bytes: u64) -> Result<(), AssetError> {
+        let needed_bytes = self.spent_bytes.get().saturating_add(bytes);
+        if needed_bytes > self.limit_bytes {
+            return Err(AssetError::Memory {
+                file: self.file.clone(),
+                field: field.to_string(),
+                needed_bytes,
+                limit_bytes: self.limit_bytes,
+            });
+        }
+        self.spent_bytes.set(needed_bytes);
+        Ok(())
+    }
+
+    /// Bytes that may still be allocated.
+    pub(super) fn left_bytes(&self) -> u64 {
+        self.limit_bytes - self.spent_bytes.get()
+    }
+
+    /// Checks a reference into the list `list` of `len` entries.
+    pub(super) fn index(&self, field: impl Display, index: usize, list: &str, len: usize) -> Result<usize, AssetError> {
+        if index < len {
+            Ok(index)
+        } else {
+            Err(self.error(field, format_args!("index {index} is out of range: {list} has {len} entries")))
+        }
+    }
+
+    /// Checks a number that JSON spelled but 32 bits cannot hold.
+    pub(super) fn finite(&self, field: impl Display, numbers: &[f32]) -> Result<(), AssetError> {
+        match numbers.iter().position(|number| !number.is_finite()) {
+            None => Ok(()),
+            Some(at) => {
+                Err(self.error(field, format_args!("number {at} is {}; write a finite 32-bit number", numbers[at])))
+            }
+        }
+    }
+}

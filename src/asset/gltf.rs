@@ -1,0 +1,98 @@
+//! The entry: a path to an [`Asset`].
+
+use super::accessor::Accessors;
+use super::context::Context;
+use super::document::{Document, Version};
+use super::mesh::Meshes;
+use super::{Asset, AssetError, animation, camera, container, extension, light, material, node, skin, texture, uri};
+use std::path::Path;
+
+/// Default of [`LoadOptions::memory_limit_bytes`]: 4 GiB.
+pub const DEFAULT_MEMORY_LIMIT_BYTES: u64 = 4 << 30;
+
+/// What a file may do while it loads.
+#[derive(Debug, Clone)]
+pub struct LoadOptions {
+    /// Buffers and images may lie outside the folder of the file. Default: false.
+    pub allow_outside: bool,
+    /// Sum of the file's size and of everything decoded from it. Default:
+    /// [`DEFAULT_MEMORY_LIMIT_BYTES`].
+    pub memory_limit_bytes: u64,
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        Self { allow_outside: false, memory_limit_bytes: DEFAULT_MEMORY_LIMIT_BYTES }
+    }
+}
+
+/// Loads a `.gltf` or `.glb` file with its buffers and images.
+///
+/// # Errors
+/// See [`AssetError`]: each error names the file, the field and what to do.
+///
+/// # Examples
+/// ```no_run
+/// use vair::asset::{LoadOptions, load};
+///
+/// let asset = load("Fox.glb".as_ref(), &LoadOptions::default())?;
+/// println!("{} meshes, {} clips", asset.meshes.len(), asset.animations.len());
+/// # Ok::<(), vair::asset::AssetError>(())
+/// ```
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Asset, AssetError> {
+    let context = Context::new(path, options);
+    let bytes = match uri::read_file(path, options.memory_limit_bytes)? {
+        Some(bytes) => bytes,
+        None => {
+            return Err(AssetError::Memory {
+                file: context.file().to_owned(),
+                field: "file".to_owned(),
+                needed_bytes: std::fs::metadata(path).map_or(u64::MAX, |data| data.len()),
+                limit_bytes: options.memory_limit_bytes,
+            });
+        }
+    };
+    context.spend("file", bytes.len() as u64)?;
+    let mut asset = parse(&context, &bytes)?;
+    asset.warnings = context.into_warnings();
+    Ok(asset)
+}
+
+fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
+    let container = container::split(context, bytes)?;
+    let broken = |source: serde_json::Error| context.error("JSON", format_args!("{source}; repair or export it again"));
+    let version: Version = serde_json::from_slice(container.json).map_err(broken)?;
+    for text in std::iter::once(&version.asset.version).chain(&version.asset.min_version) {
+        if text.split('.').next() != Some("2") {
+            return Err(context.error("asset.version", format_args!("{text} is not read; convert the file to 2.0")));
+        }
+    }
+    let document: Document = serde_json::from_slice(container.json).map_err(broken)?;
+    extension::check(context, &document)?;
+
+    let nodes = node::read(context, &document)?;
+    let (scenes, default_scene) = node::read_scenes(context, &document)?;
+    let accessors = Accessors::new(context, &document, container.binary)?;
+    let textures = texture::read(context, &document)?;
+    let materials = material::read(context, &document)?;
+    let skins = skin::read(context, &document, &accessors)?;
+    let meshes = Meshes { context, document: &document, accessors: &accessors, materials: &materials }.read()?;
+    let animations = animation::read(context, &document, &accessors)?;
+    let images = texture::read_images(context, &document, &accessors, &materials, &textures)?;
+    let variants = document.extensions.variants.variants.iter().map(|variant| variant.name.clone()).collect();
+    Ok(Asset {
+        scenes,
+        default_scene,
+        nodes,
+        meshes,
+        materials,
+        textures,
+        images,
+        cameras: camera::read(context, &document)?,
+        lights: light::read(context, &document)?,
+        skins,
+        animations,
+        variants,
+        warnings: Vec::new(),
+    })
+}

@@ -1,0 +1,45 @@
+//! Punctual lights (KHR_lights_punctual).
+
+use super::context::Context;
+use super::document::Document;
+use super::{AssetError, Light, LightKind};
+use glam::Vec3;
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// All lights.
+///
+/// # Errors
+/// A type that the extension does not have; numbers that are not finite.
+pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Light>, AssetError> {
+    let light = |(i, json): (usize, &super::document::Light)| {
+        let field = format!("extensions.KHR_lights_punctual.lights[{i}]");
+        let color = Vec3::from(json.color.unwrap_or([1.0; 3]));
+        let intensity = json.intensity.unwrap_or(1.0);
+        let inner = json.spot.inner_cone_angle.unwrap_or(0.0);
+        let outer = json.spot.outer_cone_angle.unwrap_or(FRAC_PI_4);
+        context.finite(&field, &[color.x, color.y, color.z, intensity, json.range.unwrap_or(1.0), inner, outer])?;
+        if color.min_element() < 0.0 || intensity < 0.0 {
+            context.warn(&field, "has a negative colour or intensity; it counts as 0");
+        }
+        let range_m = json.range.filter(|range| *range > 0.0);
+        if range_m != json.range {
+            context.warn(&field, "range must be > 0; it counts as infinite");
+        }
+        let kind = match json.kind.as_str() {
+            "directional" => LightKind::Directional,
+            "point" => LightKind::Point { range_m },
+            "spot" => {
+                let outer_angle = outer.clamp(f32::EPSILON, FRAC_PI_2);
+                // Equal angles would divide by zero in the falloff between them.
+                let inner_angle = inner.clamp(0.0, outer_angle * (1.0 - f32::EPSILON));
+                if (inner_angle, outer_angle) != (inner, outer) {
+                    context.warn(&field, "0 <= innerConeAngle < outerConeAngle <= pi/2 must hold; clamped");
+                }
+                LightKind::Spot { range_m, inner_angle, outer_angle }
+            }
+            kind => return Err(context.error(format_args!("{field}.type"), format_args!("`{kind}` does not exist"))),
+        };
+        Ok(Light { name: json.name.clone(), color: color.max(Vec3::ZERO), intensity: intensity.max(0.0), kind })
+    };
+    document.extensions.lights.lights.iter().enumerate().map(light).collect()
+}

@@ -1,0 +1,295 @@
+//! Meshes: attributes, indices, normals, tangents.
+
+use super::accessor::{Accessors, Normalize};
+use super::context::Context;
+use super::document::{self, Document};
+use super::topology::Mode;
+use super::{
+    AssetError, MAX_UV_SETS, Material, Mesh, Primitive, Topology, Vertices, influence, morph, normal, tangent,
+};
+use glam::{Vec2, Vec3, Vec4};
+
+/// What primitives need of the rest of the file.
+pub(super) struct Meshes<'a> {
+    pub(super) context: &'a Context,
+    pub(super) document: &'a Document,
+    pub(super) accessors: &'a Accessors<'a>,
+    /// The file's materials and, last, a default one for primitives without.
+    pub(super) materials: &'a [Material],
+}
+
+/// Most morph targets of any primitive: what the mesh's weights count.
+pub(super) fn target_count(mesh: &document::Mesh) -> usize {
+    mesh.primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0)
+}
+
+/// `weights` made `count` long; missing ones are 0.
+pub(super) fn fit_weights(
+    context: &Context,
+    field: &str,
+    weights: &[f32],
+    count: usize,
+) -> Result<Vec<f32>, AssetError> {
+    context.finite(field, weights)?;
+    if !weights.is_empty() && weights.len() != count {
+        let problem = format!("has {} entries for {count} morph targets; it is cut or filled with 0", weights.len());
+        context.warn(field, problem);
+    }
+    context.spend(field, count as u64 * size_of::<f32>() as u64)?;
+    let mut weights = weights.to_vec();
+    weights.resize(count, 0.0);
+    Ok(weights)
+}
+
+impl Meshes<'_> {
+    /// All meshes of the file.
+    ///
+    /// # Errors
+    /// Any index out of range, list of wrong length, number that is not finite.
+    pub(super) fn read(&self) -> Result<Vec<Mesh>, AssetError> {
+        let joint_counts = self.joint_counts();
+        let mesh = |(m, json): (usize, &document::Mesh)| {
+            let field = format!("meshes[{m}]");
+            if json.primitives.is_empty() {
+                return Err(self.context.error(&field, "has no primitives"));
+            }
+            let targets = target_count(json);
+            let mut primitives = Vec::with_capacity(json.primitives.len());
+            for (p, primitive) in json.primitives.iter().enumerate() {
+                let place = format!("{field}.primitives[{p}]");
+                primitives.extend(self.primitive(&field, &place, primitive, joint_counts[m], targets)?);
+            }
+            let weights = fit_weights(self.context, &format!("{field}.weights"), &json.weights, targets)?;
+            Ok(Mesh { name: json.name.clone(), primitives, weights })
+        };
+        self.document.meshes.iter().enumerate().map(mesh).collect()
+    }
+
+    /// For each mesh the joints of the smallest skin that draws it.
+    fn joint_counts(&self) -> Vec<Option<usize>> {
+        let mut counts: Vec<Option<usize>> = vec![None; self.document.meshes.len()];
+        for node in &self.document.nodes {
+            let skin = node.skin.and_then(|skin| self.document.skins.get(skin));
+            if let (Some(skin), Some(count)) = (skin, node.mesh.and_then(|mesh| counts.get_mut(mesh))) {
+                let joints = skin.joints.len();
+                *count = Some(count.map_or(joints, |smallest| smallest.min(joints)));
+            }
+        }
+        counts
+    }
+
+    /// `None`, with a warning, where nothing can be drawn.
+    fn primitive(
+        &self,
+        mesh: &str,
+        field: &str,
+        json: &document::Primitive,
+        joint_count: Option<usize>,
+        target_count: usize,
+    ) -> Result<Option<Primitive>, AssetError> {
+        let context = self.context;
+        let code = json.mode.unwrap_or(4);
+        let mode = Mode::from_code(code)
+            .ok_or_else(|| context.error(format_args!("{field}.mode"), format_args!("{code} does not exist")))?;
+        let (material, variant_materials) = self.materials_of(field, json)?;
+        if !json.attributes.contains_key("POSITION") {
+            context.warn(field, "has no POSITION; it is skipped");
+            return Ok(None);
+        }
+        let vertices = self.vertices(field, json, joint_count)?;
+        let vertex_count = vertices.positions.len();
+        let indices = self.indices(field, json, mode, vertex_count)?;
+        if indices.is_empty() {
+            context.warn(field, "has too few vertices to show anything; it is skipped");
+            return Ok(None);
+        }
+        let morph_targets = morph::read(context, self.accessors, &json.targets, field, vertex_count, target_count)?;
+        let topology = mode.topology();
+        let mut primitive = Primitive { material, variant_materials, topology, indices, vertices, morph_targets };
+        self.finish_normals(mesh, field, &mut primitive)?;
+        self.finish_tangents(mesh, field, &mut primitive)?;
+        Ok(Some(primitive))
+    }
+
+    /// The material, and the (variant, material) pairs.
+    #[allow(clippy::type_complexity)]
+    fn materials_of(
+        &self,
+        field: &str,
+        json: &document::Primitive,
+    ) -> Result<(usize, Vec<(usize, usize)>), AssetError> {
+        let count = self.document.materials.len();
+        let material = match json.material {
+            Some(material) => self.context.index(format_args!("{field}.material"), material, "materials", count)?,
+            None => count,
+        };
+        let variant_count = self.document.extensions.variants.variants.len();
+        let mut pairs = Vec::new();
+        for (i, mapping) in json.extensions.variants.mappings.iter().enumerate() {
+            let here = format!("{field}.extensions.KHR_materials_variants.mappings[{i}]");
+            let material = self.context.index(format_args!("{here}.material"), mapping.material, "materials", count)?;
+            for &variant in &mapping.variants {
+                self.context.index(format_args!("{here}.variants"), variant, "variants", variant_count)?;
+                pairs.push((variant, material));
+            }
+        }
+        Ok((material, pairs))
+    }
+
+    fn vertices(
+        &self,
+        field: &str,
+        json: &document::Primitive,
+        joint_count: Option<usize>,
+    ) -> Result<Vertices, AssetError> {
+        let (context, accessors) = (self.context, self.accessors);
+        let field = format!("{field}.attributes");
+        let mut vertices = Vertices::default();
+        if let Some(&accessor) = json.attributes.get("POSITION") {
+            let positions = accessors.floats::<3>(&format!("{field}.POSITION"), accessor, Normalize::AsFlagged)?;
+            vertices.positions = positions.into_iter().map(Vec3::from).collect();
+        }
+        let count = vertices.positions.len();
+        for (name, &accessor) in &json.attributes {
+            let here = format!("{field}.{name}");
+            let same_length = |len: usize| {
+                let problem = || context.error(&here, format_args!("has {len} elements, POSITION has {count}"));
+                if len == count { Ok(()) } else { Err(problem()) }
+            };
+            match name.as_str() {
+                "POSITION" => {}
+                "NORMAL" => {
+                    let normals = accessors.floats::<3>(&here, accessor, Normalize::AsFlagged)?;
+                    same_length(normals.len())?;
+                    vertices.normals = normals.into_iter().map(Vec3::from).collect();
+                }
+                "TANGENT" => {
+                    let tangents = accessors.floats::<4>(&here, accessor, Normalize::AsFlagged)?;
+                    same_length(tangents.len())?;
+                    vertices.tangents = tangents.into_iter().map(Vec4::from).collect();
+                }
+                "COLOR_0" => {
+                    vertices.colors = self.colors(&here, accessor)?;
+                    same_length(vertices.colors.len())?;
+                }
+                _ if name.starts_with('_') || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => {}
+                _ => match name.strip_prefix("TEXCOORD_").map(str::parse::<usize>) {
+                    Some(Ok(set)) if set < MAX_UV_SETS => {
+                        let uvs = accessors.floats::<2>(&here, accessor, Normalize::AsFlagged)?;
+                        same_length(uvs.len())?;
+                        if vertices.uv_sets.len() <= set {
+                            vertices.uv_sets.resize(set + 1, Vec::new());
+                        }
+                        vertices.uv_sets[set] = uvs.into_iter().map(Vec2::from).collect();
+                    }
+                    Some(Ok(_)) => context.warn(&here, format_args!("only {MAX_UV_SETS} UV sets are kept; ignored")),
+                    _ => context.warn(&here, "is not read"),
+                },
+            }
+        }
+        if let Some(joint_count) = joint_count {
+            (vertices.joints, vertices.influences_per_vertex) =
+                influence::read(context, accessors, &json.attributes, &field, count, joint_count)?;
+        }
+        Ok(vertices)
+    }
+
+    fn colors(&self, field: &str, accessor: usize) -> Result<Vec<Vec4>, AssetError> {
+        let colors: Vec<Vec4> = match self.accessors.shape(field, accessor)? {
+            "VEC3" => {
+                let rgb = self.accessors.floats::<3>(field, accessor, Normalize::Always)?;
+                rgb.into_iter().map(|rgb| Vec3::from(rgb).extend(1.0)).collect()
+            }
+            _ => {
+                let rgba = self.accessors.floats::<4>(field, accessor, Normalize::Always)?;
+                rgba.into_iter().map(Vec4::from).collect()
+            }
+        };
+        let clamped: Vec<Vec4> = colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE)).collect();
+        if clamped != colors {
+            self.context.warn(field, "has colours outside [0, 1]; they are clamped");
+        }
+        Ok(clamped)
+    }
+
+    /// The index list, unrolled; each entry below `vertex_count`.
+    fn indices(
+        &self,
+        field: &str,
+        json: &document::Primitive,
+        mode: Mode,
+        vertex_count: usize,
+    ) -> Result<Vec<u32>, AssetError> {
+        let context = self.context;
+        let here = format!("{field}.indices");
+        let order: Vec<u32> = match json.indices {
+            Some(accessor) => {
+                let order = self.accessors.unsigned::<1>(&here, accessor)?;
+                for (i, &[index]) in order.iter().enumerate() {
+                    if index as usize >= vertex_count {
+                        let problem =
+                            format!("element {i} is {index}, out of range: POSITION has {vertex_count} vertices");
+                        return Err(context.error(format_args!("{here} (accessors[{accessor}])"), problem));
+                    }
+                }
+                order.into_iter().flatten().collect()
+            }
+            None => {
+                let count = u32::try_from(vertex_count)
+                    .map_err(|_| context.error(field, format_args!("has {vertex_count} vertices, over 2^32")))?;
+                (0..count).collect()
+            }
+        };
+        context.spend(&here, order.len() as u64 * mode.growth() * size_of::<u32>() as u64)?;
+        let (list, rest) = mode.unroll(order);
+        if rest > 0 {
+            context.warn(&here, format_args!("the last {rest} entries make no whole {mode:?} primitive; ignored"));
+        }
+        Ok(list)
+    }
+
+    fn finish_normals(&self, mesh: &str, field: &str, primitive: &mut Primitive) -> Result<(), AssetError> {
+        let vertices = &mut primitive.vertices;
+        if !vertices.normals.is_empty() {
+            let indices: &[u32] = if primitive.topology == Topology::Triangles { &primitive.indices } else { &[] };
+            if normal::normalize(&mut vertices.normals, &vertices.positions, indices) > 0 {
+                self.context.warn(mesh, "has normals of length 0; the mean of their triangles is used");
+            }
+        } else if primitive.topology == Topology::Triangles {
+            let bytes = normal::vertex_bytes(primitive) + size_of::<Vec3>() as u64;
+            self.context.spend(field, bytes.saturating_mul(primitive.indices.len() as u64))?;
+            if normal::flatten(primitive) > 0 {
+                self.context.warn(mesh, "has triangles without area; their flat normals point up");
+            }
+        }
+        Ok(())
+    }
+
+    fn finish_tangents(&self, mesh: &str, field: &str, primitive: &mut Primitive) -> Result<(), AssetError> {
+        if primitive.vertices.normals.is_empty() {
+            // Without normals a tangent means nothing (section 3.7.2.1).
+            primitive.vertices.tangents.clear();
+            return Ok(());
+        }
+        if !primitive.vertices.tangents.is_empty() {
+            if tangent::normalize(&mut primitive.vertices.tangents, &primitive.vertices.normals) > 0 {
+                self.context.warn(mesh, "has tangents of length 0; a perpendicular of the normal is used");
+            }
+            return Ok(());
+        }
+        let materials =
+            std::iter::once(primitive.material).chain(primitive.variant_materials.iter().map(|pair| pair.1));
+        let mut normal_maps = materials.filter_map(|m| self.materials.get(m)?.normal_texture);
+        if primitive.topology != Topology::Triangles {
+            return Ok(());
+        }
+        let Some(normal_map) = normal_maps.next() else { return Ok(()) };
+        let bytes = normal::vertex_bytes(primitive) + size_of::<Vec4>() as u64;
+        self.context.spend(field, bytes.saturating_mul(primitive.indices.len() as u64))?;
+        if !tangent::generate_tangents(primitive, normal_map.uv_set as usize) {
+            let problem = format!("has no TEXCOORD_{} for its normal map, so no tangents", normal_map.uv_set);
+            self.context.warn(field, problem);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,51 @@
+//! Morph targets.
+
+use super::accessor::{Accessors, Normalize};
+use super::context::Context;
+use super::{AssetError, MorphTarget};
+use glam::Vec3;
+use std::collections::BTreeMap;
+
+/// The targets of one primitive, padded with empty ones to `target_count`.
+///
+/// # Errors
+/// A list of another length than the positions; NaN; indices out of range.
+pub(super) fn read(
+    context: &Context,
+    accessors: &Accessors,
+    targets: &[BTreeMap<String, usize>],
+    field: &str,
+    vertex_count: usize,
+    target_count: usize,
+) -> Result<Vec<MorphTarget>, AssetError> {
+    context.spend(field, target_count as u64 * size_of::<MorphTarget>() as u64)?;
+    let mut read = Vec::with_capacity(target_count);
+    for (t, attributes) in targets.iter().enumerate() {
+        let mut target = MorphTarget::default();
+        for (name, &accessor) in attributes {
+            let list = match name.as_str() {
+                "POSITION" => &mut target.positions,
+                "NORMAL" => &mut target.normals,
+                "TANGENT" => &mut target.tangents,
+                _ => {
+                    context.warn(field, format_args!("morph targets move `{name}`, which is not read"));
+                    continue;
+                }
+            };
+            let here = format!("{field}.targets[{t}].{name}");
+            let offsets = accessors.floats::<3>(&here, accessor, Normalize::AsFlagged)?;
+            if offsets.len() != vertex_count {
+                let problem = format!("has {} elements, POSITION has {vertex_count}", offsets.len());
+                return Err(context.error(here, problem));
+            }
+            *list = offsets.into_iter().map(Vec3::from).collect();
+        }
+        read.push(target);
+    }
+    if read.len() < target_count {
+        let problem = format!("has {} morph targets, its mesh {target_count}; the others leave it", read.len());
+        context.warn(field, problem);
+        read.resize_with(target_count, MorphTarget::default);
+    }
+    Ok(read)
+}

@@ -1,0 +1,191 @@
+//! Where a reference leads: data URIs, percent-decoding, and the rule that a file reads only
+//! inside its own folder.
+
+use super::AssetError;
+use super::context::Context;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD_PAD_INDIFFERENT;
+use percent_encoding::{percent_decode, percent_decode_str};
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Why a relative path has no file.
+enum Miss {
+    Outside,
+    Io(std::io::Error),
+}
+
+/// Resolves `relative` under `folder`, following links; the answer lies inside it unless
+/// `allow_outside`.
+fn locate(folder: &Path, relative: &str, allow_outside: bool) -> Result<PathBuf, Miss> {
+    let path = folder.join(relative);
+    if allow_outside {
+        return Ok(path);
+    }
+    let inside = |component: Component| matches!(component, Component::Normal(_) | Component::CurDir);
+    if !Path::new(relative).components().all(inside) {
+        return Err(Miss::Outside);
+    }
+    let root = folder.canonicalize().map_err(Miss::Io)?;
+    // A link may lead anywhere: compare where it ends.
+    let path = path.canonicalize().map_err(Miss::Io)?;
+    if path.starts_with(&root) { Ok(path) } else { Err(Miss::Outside) }
+}
+
+/// Bytes of a plain file of at most `limit_bytes`; `None` when it is larger.
+pub(super) fn read_file(path: &Path, limit_bytes: u64) -> Result<Option<Vec<u8>>, AssetError> {
+    let io = |source| AssetError::Io { path: path.to_path_buf(), source };
+    // Asked before opening: opening a pipe would wait for its writer.
+    let kind = std::fs::metadata(path).map_err(io)?;
+    if kind.is_dir() {
+        return Err(io(std::io::Error::new(std::io::ErrorKind::IsADirectory, "it is a folder, not a file")));
+    }
+    if !kind.is_file() {
+        return Err(io(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a plain file")));
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(io)?;
+    if file.metadata().map_err(io)?.len() > limit_bytes {
+        return Ok(None);
+    }
+    file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+    Ok((bytes.len() as u64 <= limit_bytes).then_some(bytes))
+}
+
+/// Reads `relative` (a plain path, not percent-encoded) inside `folder`.
+///
+/// # Errors
+/// [`AssetError::Outside`] for `..`, an absolute path or a link that leaves `folder`, unless
+/// `allow_outside`; [`AssetError::Io`] when the file cannot be read.
+pub fn read_inside(folder: &Path, relative: &str, allow_outside: bool) -> Result<Vec<u8>, AssetError> {
+    let path = match locate(folder, relative, allow_outside) {
+        Ok(path) => path,
+        Err(Miss::Io(source)) => return Err(AssetError::Io { path: folder.join(relative), source }),
+        Err(Miss::Outside) => {
+            return Err(AssetError::Outside {
+                file: folder.display().to_string(),
+                field: "path".to_owned(),
+                uri: relative.to_owned(),
+            });
+        }
+    };
+    // Without a limit of its own: the largest size that a Vec can hold.
+    read_file(&path, isize::MAX as u64).map(Option::unwrap_or_default)
+}
+
+/// Bytes behind a glTF `uri`: a data URI or a percent-encoded relative path.
+pub(super) fn read(context: &Context, field: &str, uri: &str) -> Result<Vec<u8>, AssetError> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        return decode_data(context, field, data);
+    }
+    if has_scheme(uri) {
+        let scheme = uri.split(':').next().unwrap_or_default();
+        return Err(context.unsupported(field, format_args!("a URI with scheme `{scheme}:`")));
+    }
+    let relative = percent_decode_str(uri)
+        .decode_utf8()
+        .map_err(|_| context.error(field, format_args!("`{uri}` does not percent-decode to UTF-8")))?;
+    let path = match locate(&context.folder, &relative, context.allow_outside) {
+        Ok(path) => path,
+        Err(Miss::Outside) => return Err(context.outside(field, &relative)),
+        Err(Miss::Io(source)) => {
+            let problem = format_args!("`{relative}` cannot be read ({source}); put it beside the file").to_string();
+            return Err(context.error(field, problem));
+        }
+    };
+    match read_file(&path, context.left_bytes())? {
+        Some(bytes) => {
+            context.spend(field, bytes.len() as u64)?;
+            Ok(bytes)
+        }
+        // One byte over is what is known to be too much.
+        None => Err(over_limit(context, field)),
+    }
+}
+
+fn over_limit(context: &Context, field: &str) -> AssetError {
+    match context.spend(field, context.left_bytes().saturating_add(1)) {
+        Err(error) => error,
+        Ok(()) => context.error(field, "is larger than any memory"),
+    }
+}
+
+/// RFC 3986: letter, then letters, digits, `+`, `-`, `.`, then `:`.
+fn has_scheme(uri: &str) -> bool {
+    uri.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.starts_with(|first: char| first.is_ascii_alphabetic())
+            && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
+    })
+}
+
+/// RFC 2397, after `data:`.
+fn decode_data(context: &Context, field: &str, data: &str) -> Result<Vec<u8>, AssetError> {
+    let (header, payload) =
+        data.split_once(',').ok_or_else(|| context.error(field, "data URI has no comma before its data"))?;
+    context.spend(field, payload.len() as u64)?;
+    let bytes: Vec<u8> = percent_decode(payload.as_bytes()).collect();
+    if !header.ends_with(";base64") {
+        return Ok(bytes);
+    }
+    STANDARD_PAD_INDIFFERENT
+        .decode(&bytes)
+        .map_err(|source| context.error(field, format_args!("data URI is not valid base64 ({source})")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asset::LoadOptions;
+
+    fn context() -> Context {
+        Context::new(Path::new("a.gltf"), &LoadOptions::default())
+    }
+
+    #[test]
+    fn data_uris_decode() {
+        let context = context();
+        for (uri, bytes) in [
+            ("data:application/octet-stream;base64,AQID", &[1u8, 2, 3][..]),
+            ("data:;base64,AQI=", &[1, 2]),
+            ("data:;base64,AQI", &[1, 2]),
+            ("data:;base64,AQI%3D", &[1, 2]),
+            ("data:text/plain,a%20b", b"a b"),
+        ] {
+            assert_eq!(read(&context, "f", uri).unwrap(), bytes, "{uri}");
+        }
+        for uri in ["data:;base64,!!", "data:nothing"] {
+            assert!(read(&context, "buffers[0].uri", uri).unwrap_err().to_string().contains("buffers[0].uri"), "{uri}");
+        }
+    }
+
+    #[test]
+    fn schemes_are_refused() {
+        for uri in ["http://example.org/a.png", "file:///a.png", "C:/a.png"] {
+            assert!(matches!(read(&context(), "f", uri), Err(AssetError::Unsupported { .. })), "{uri}");
+        }
+        assert!(!has_scheme("a b:c.png"));
+    }
+
+    #[test]
+    fn reads_only_inside_the_folder() {
+        let outer = tempfile::tempdir().unwrap();
+        let folder = outer.path().join("in");
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(outer.path().join("secret"), b"s").unwrap();
+        std::fs::write(folder.join("ü b"), b"ok").unwrap();
+        assert_eq!(read_inside(&folder, "./ü b", false).unwrap(), b"ok");
+        let absolute = outer.path().join("secret").display().to_string();
+        for relative in ["../secret", "x/../../secret", absolute.as_str()] {
+            assert!(matches!(read_inside(&folder, relative, false), Err(AssetError::Outside { .. })), "{relative}");
+        }
+        assert_eq!(read_inside(&folder, "../secret", true).unwrap(), b"s");
+        assert!(matches!(read_inside(&folder, "missing", false), Err(AssetError::Io { .. })));
+        assert!(matches!(read_inside(&folder, "nul\0", false), Err(AssetError::Io { .. })));
+        assert!(matches!(read_inside(&folder, ".", false), Err(AssetError::Io { .. })));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(outer.path().join("secret"), folder.join("link")).unwrap();
+            assert!(matches!(read_inside(&folder, "link", false), Err(AssetError::Outside { .. })));
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! What `build.rs` refuses, and how it says so.
+
+#[cfg(not(feature = "bundled-glslang"))]
+#[allow(dead_code)]
+#[path = "../build/compile.rs"]
+mod compile;
+#[allow(dead_code)]
+#[path = "../build/docs.rs"]
+mod docs;
+#[allow(dead_code)]
+#[path = "../build/include.rs"]
+mod include;
+#[allow(dead_code)]
+#[path = "../build/interface.rs"]
+mod interface;
+#[allow(dead_code)]
+#[path = "../build/layout.rs"]
+mod layout;
+#[allow(dead_code)]
+#[path = "../build/permutation.rs"]
+mod permutation;
+
+use interface::{Binding, BindingKind, Field, FieldType, Interface, Slot, Struct};
+use permutation::Permutation;
+use std::path::Path;
+
+fn one(line: &str) -> Permutation {
+    permutation::parse(line).unwrap().remove(0)
+}
+
+#[test]
+fn a_permutation_has_one_name_in_the_list_and_one_in_rust() {
+    let list = permutation::parse("# fur\n\nfur.frag UV LAYERS=3 # two\nfur.vert\n").unwrap();
+    assert_eq!(list.iter().map(Permutation::name).collect::<Vec<_>>(), ["fur.frag+UV+LAYERS=3", "fur.vert"]);
+    assert_eq!(list[0].ident(), "FUR_FRAG_UV_LAYERS_3");
+    assert_eq!((list[0].stem(), list[1].line), ("fur", 4));
+}
+
+#[test]
+fn bad_lines_are_all_reported_with_their_number() {
+    let errors = permutation::parse("a.frag\na.geom\na.frag 3D\na.frag\n3d.frag\n").unwrap_err();
+    assert_eq!(
+        errors,
+        [
+            "shaders_glsl/permutations:2: `a.geom` must end in .vert, .frag or .comp",
+            "shaders_glsl/permutations:3: `3D` is not the name of a define",
+            "shaders_glsl/permutations:4: `a.frag` has the same Rust name as line 1",
+            "shaders_glsl/permutations:5: `3d.frag` must start with a letter",
+        ]
+    );
+}
+
+/// A `shaders_glsl` folder with these files.
+fn tree(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let root = tempfile::tempdir().unwrap();
+    for (path, text) in files {
+        let path = root.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    root
+}
+
+/// Messages without the temporary folder's path.
+fn relative(message: &str, root: &Path) -> String {
+    message.replace(&format!("{}/", root.display()), "")
+}
+
+#[test]
+fn includes_and_defines_expand_with_their_lines() {
+    let root = tree(&[
+        ("pass/a.frag", "// doc\n#version 460\n#include \"b.glsl\"\nvoid main() {}\n"),
+        ("lib/b.glsl", "float b;\n"),
+    ]);
+    let text = include::expand(&one("a.frag UV N=3"), root.path()).unwrap();
+    assert_eq!(
+        relative(&text, root.path()),
+        "// doc\n#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n#define UV 1\n#define N 3\n\
+         #line 3 \"pass/a.frag\"\n#line 1 \"lib/b.glsl\"\nfloat b;\n#line 4 \"pass/a.frag\"\nvoid main() {}\n"
+    );
+}
+
+#[test]
+fn bad_includes_name_their_line() {
+    let root = tree(&[
+        ("pass/none.frag", "#version 460\n\n#include \"none.glsl\"\n"),
+        ("pass/up.frag", "#version 460\n#include \"../pass/none.frag\"\n"),
+        ("pass/cycle.frag", "#version 460\n#include \"c.glsl\"\n"),
+        ("host/c.glsl", "\n#include \"c.glsl\"\n"),
+        ("pass/bare.frag", "void main() {}\n"),
+    ]);
+    let error = |file: &str| relative(&include::expand(&one(file), root.path()).unwrap_err(), root.path());
+    assert_eq!(
+        error("none.frag"),
+        "pass/none.frag:3: `none.glsl` is in neither shaders_glsl/lib nor shaders_glsl/host"
+    );
+    assert_eq!(error("up.frag"), "pass/up.frag:2: write #include \"file.glsl\"");
+    assert_eq!(error("cycle.frag"), "host/c.glsl:2: `c.glsl` includes itself");
+    assert_eq!(error("bare.frag"), "pass/bare.frag:1: must start with #version 460");
+    assert!(error("missing.frag").starts_with("pass/missing.frag: "));
+}
+
+#[cfg(not(feature = "bundled-glslang"))]
+#[test]
+fn a_shader_error_names_the_file_and_line_of_the_glsl() {
+    let root = tree(&[
+        ("pass/a.frag", "#version 460\n#include \"b.glsl\"\nvoid main() {\n    missing = 1;\n}\n"),
+        ("pass/c.frag", "#version 460\n#ifdef UV\n#include \"d.glsl\"\n#endif\nvoid main() {}\n"),
+        ("lib/b.glsl", "\nfloat b() { return 1.0; }\n"),
+        ("lib/d.glsl", "\nfloat d() { return e; }\n"),
+    ]);
+    let compiler = compile::Compiler::find().unwrap();
+    let compile = |line: &str| {
+        let spirv = compiler.compile(&one(line), root.path(), root.path());
+        spirv.map(|words| words[0]).map_err(|error| relative(&error, root.path()))
+    };
+    assert_eq!(compile("a.frag"), Err("pass/a.frag:4: 'missing' : undeclared identifier (a.frag)".to_owned()));
+    assert_eq!(compile("c.frag UV"), Err("lib/d.glsl:2: 'e' : undeclared identifier (c.frag+UV)".to_owned()));
+    assert_eq!(compile("c.frag"), Ok(0x0723_0203));
+}
+
+fn interface() -> Interface {
+    Interface {
+        bindings: Vec::new(),
+        push_constant_bytes: 0,
+        constants: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        workgroup_size: [0; 3],
+        structs: Vec::new(),
+    }
+}
+
+fn binding(name: &str, kind: BindingKind) -> Interface {
+    Interface { bindings: vec![Binding { set: 1, binding: 2, name: name.to_owned(), kind }], ..interface() }
+}
+
+#[test]
+fn stages_of_one_pass_share_their_descriptors() {
+    let (vertex, fragment, compute) = (one("a.vert"), one("a.frag UV"), one("a.comp"));
+    let check = |stage: &Permutation, other: Interface| {
+        let first = binding("base", BindingKind::Storage { readonly: true });
+        interface::check([(&vertex, &first), (stage, &other)].into_iter())
+    };
+    assert_eq!(check(&fragment, binding("base", BindingKind::Storage { readonly: false })), Ok(()));
+    assert_eq!(check(&compute, binding("other", BindingKind::Texture)), Ok(()));
+    assert!(check(&fragment, binding("base", BindingKind::Texture)).is_err());
+    assert_eq!(
+        check(&fragment, binding("other", BindingKind::Storage { readonly: true })).unwrap_err(),
+        ["set 1 binding 2 is Storage { readonly: true } `base` in a.vert but Storage { readonly: true } `other` in \
+          a.frag+UV: stages of one pass share their layout"]
+    );
+}
+
+#[test]
+fn a_fragment_shader_reads_what_its_vertex_shader_writes() {
+    let slot =
+        |location, glsl_type: &str| vec![Slot { location, name: "uv".to_owned(), glsl_type: glsl_type.to_owned() }];
+    let vertex = Interface { outputs: slot(0, "vec2"), ..interface() };
+    let check = |inputs: Vec<Slot>| {
+        let fragment = Interface { inputs, ..interface() };
+        interface::check([(&one("a.vert UV"), &vertex), (&one("a.frag UV"), &fragment)].into_iter())
+    };
+    assert_eq!(check(slot(0, "vec2")), Ok(()));
+    assert_eq!(
+        check(slot(1, "vec2")).unwrap_err(),
+        ["a.frag+UV: reads vec2 `uv` at location 1, which a.vert+UV does not write"]
+    );
+    assert_eq!(
+        check(slot(0, "vec3")).unwrap_err(),
+        ["a.frag+UV: reads vec3 `uv` at location 0, where a.vert+UV writes vec2"]
+    );
+}
+
+fn light(bytes: u32, is_element: bool) -> Struct {
+    let numbers = |count| FieldType::Numbers { scalar: "f32", count };
+    let fields = vec![
+        Field { name: "color".to_owned(), offset: 0, ty: numbers(3) },
+        Field { name: "cone".to_owned(), offset: 16, ty: numbers(2) },
+    ];
+    Struct { name: "Light".to_owned(), bytes, is_element, fields }
+}
+
+#[test]
+fn a_struct_becomes_rust_with_padding_and_asserts() {
+    let mut comments = docs::Comments::default();
+    comments.add("// Shines.\nstruct Light {\n    vec3 color; // Radiance.\n    vec2 cone;\n};\n");
+    let structs = [("a".to_owned(), light(24, false)), ("b".to_owned(), light(32, true))];
+    let text = layout::generate(structs.into_iter(), &comments).unwrap();
+    let body = "/// Shines.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Light {
+    /// Radiance.
+    pub r#color: [f32; 3],
+    #[doc(hidden)]
+    pub _padding_0: [u32; 1],
+    /// GLSL `cone`.
+    pub r#cone: [f32; 2],
+    #[doc(hidden)]
+    pub _padding_1: [u32; 2],
+}
+const _: () = {
+    assert!(core::mem::offset_of!(Light, r#color) == 0);
+    assert!(core::mem::offset_of!(Light, r#cone) == 16);
+    assert!(core::mem::size_of::<Light>() == 32);
+};
+";
+    assert!(text.starts_with(body), "{text}");
+}
+
+#[test]
+fn one_name_has_one_layout() {
+    let mut other = light(32, true);
+    other.fields[1].offset = 12;
+    for other in [other, light(48, true)] {
+        let structs = [("a.frag".to_owned(), light(32, true)), ("b.frag".to_owned(), other)];
+        let errors = layout::generate(structs.into_iter(), &docs::Comments::default()).unwrap_err();
+        assert_eq!(errors, ["struct `Light` has another layout in a.frag than in b.frag"]);
+    }
+}
+
+#[test]
+fn an_array_that_rust_cannot_mirror_is_refused() {
+    let element = Box::new(FieldType::Numbers { scalar: "f32", count: 1 });
+    let weights = FieldType::Array { element, length: 4, stride: 16 };
+    let fields = vec![Field { name: "weights".to_owned(), offset: 0, ty: weights }];
+    let block = Struct { name: "Draw".to_owned(), bytes: 64, is_element: false, fields };
+    let errors = layout::generate([("a.frag".to_owned(), block)].into_iter(), &docs::Comments::default()).unwrap_err();
+    assert_eq!(
+        errors,
+        [
+            "struct `Draw` in a.frag: `weights`: array elements of 4 bytes lie 16 apart; use vec4 elements, or std430 or \
+          scalar layout"
+        ]
+    );
+}
