@@ -1,1 +1,27 @@
-//! scene.
+//! From a loaded file to what one frame shows: pose, instances, lights, camera, bounds.
+//!
+//! Everything here is a pure function of an [`Asset`](crate::asset::Asset) and a [`Pose`]; nothing knows the GPU. Matrices
+//! are named `to_from_source`, lengths are metres, angles radians unless a name says otherwise.
+
+mod animation;
+mod bounds;
+mod camera;
+mod choice;
+mod deform;
+mod error;
+mod instance;
+mod light;
+mod shell;
+
+pub use animation::{Pose, pose};
+pub use bounds::{object_radius_m, world_bounds};
+pub use camera::{Camera, CameraChoice, DEFAULT_FOV_DEG, DEFAULT_PHI_DEG, DEFAULT_THETA_DEG, camera};
+pub use choice::{find_animation, find_camera, find_scene, find_variant};
+pub use deform::deform;
+pub use error::SceneError;
+pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
+pub use light::{
+    AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
+    lighting,
+};
+pub use shell::{shell_directions, shell_directions_of_mesh};

@@ -1,0 +1,151 @@
+//! How large things are in a pose.
+
+use glam::{Mat4, Vec3};
+
+use super::deform::{deformed_positions, influences, morphed_positions};
+use super::{Instance, Pose, instances, joint_matrices, pose};
+use crate::asset::{Asset, Primitive};
+use crate::math::Aabb;
+
+/// Skinned vertices beyond this many (per primitive) are bounded by boxes around each joint's share instead of one by one.
+const EXACT_SKINNED_VERTICES: usize = 100_000;
+
+/// Box around everything that a scene shows in a pose, in world space; empty for an empty scene.
+///
+/// Exact for rigid, morphed and skinned meshes; a skinned primitive of more than 100,000 vertices gets a box that is never
+/// too small.
+pub fn world_bounds(asset: &Asset, scene: usize, pose: &Pose) -> Aabb {
+    bounds_of(asset, pose, &instances(asset, scene, pose, None))
+}
+
+/// Radius of the sphere around a node's mesh in its rest pose, world metres: what relative fur lengths are measured against,
+/// so that all primitives of a mesh agree and animation does not change it. 0 for a node without a mesh.
+///
+/// Rigid: half the diagonal of the object-space box, its axes scaled as the node scales them (turning changes nothing).
+/// Skinned: half the diagonal of the rest pose's world box.
+pub fn object_radius_m(asset: &Asset, node: usize) -> f32 {
+    let Some(mesh) = asset.nodes[node].mesh else { return 0.0 };
+    let rest = pose(asset, None, 0.0);
+    let (joints, axis_scale) = match asset.nodes[node].skin {
+        Some(skin) => (joint_matrices(asset, skin, &rest), Vec3::ONE),
+        None => {
+            let matrix = rest.world_from_node[node];
+            let length = |column: glam::Vec4| column.truncate().length();
+            (Vec::new(), Vec3::new(length(matrix.x_axis), length(matrix.y_axis), length(matrix.z_axis)))
+        }
+    };
+    let bounds = asset.meshes[mesh].primitives.iter().fold(Aabb::EMPTY, |bounds, primitive| {
+        bounds.union(primitive_bounds(primitive, Mat4::IDENTITY, &joints, &rest.weights[node]))
+    });
+    (bounds.half_extent() * axis_scale).length()
+}
+
+fn bounds_of(asset: &Asset, pose: &Pose, shown: &[Instance]) -> Aabb {
+    shown.iter().fold(Aabb::EMPTY, |bounds, instance| {
+        let primitive = &asset.meshes[instance.mesh].primitives[instance.primitive];
+        let joints = instance.skin.map(|skin| joint_matrices(asset, skin, pose)).unwrap_or_default();
+        bounds.union(primitive_bounds(primitive, instance.world_from_object, &joints, &instance.morph_weights))
+    })
+}
+
+/// Only vertices that an index uses count: files share one vertex list among primitives.
+fn primitive_bounds(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weights: &[f32]) -> Aabb {
+    let mut used = vec![false; primitive.vertices.positions.len()];
+    for &index in &primitive.indices {
+        used[index as usize] = true;
+    }
+    if !joints.is_empty() && used.len() > EXACT_SKINNED_VERTICES {
+        return joint_boxes(primitive, &used, joints, weights).transformed(matrix);
+    }
+    let positions = deformed_positions(primitive, joints, weights);
+    Aabb::around(
+        positions.iter().zip(&used).filter(|&(_, &used)| used).map(|(&position, _)| matrix.transform_point3(position)),
+    )
+}
+
+/// A skinned vertex is a weighted mean of its joints' images of it, so it lies in the union of each joint's image of the box
+/// around all vertices that the joint moves.
+fn joint_boxes(primitive: &Primitive, used: &[bool], joints: &[Mat4], weights: &[f32]) -> Aabb {
+    let mut boxes = vec![Aabb::EMPTY; joints.len()];
+    for (vertex, &position) in morphed_positions(primitive, weights).iter().enumerate().filter(|&(i, _)| used[i]) {
+        for &(joint, weight) in influences(&primitive.vertices, vertex) {
+            if weight > 0.0 {
+                let joint_box = &mut boxes[usize::from(joint)];
+                *joint_box = joint_box.union(Aabb { min: position, max: position });
+            }
+        }
+    }
+    boxes.iter().zip(joints).fold(Aabb::EMPTY, |bounds, (joint_box, &joint)| bounds.union(joint_box.transformed(joint)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asset::{AssetScene, Mesh, MorphTarget, Node, Skin, Transform, Vertices};
+    use glam::Quat;
+
+    fn asset() -> Asset {
+        let primitive = Primitive {
+            indices: vec![0, 1],
+            vertices: Vertices {
+                // The third vertex is used by no index.
+                positions: vec![Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0), Vec3::splat(1e6)],
+                joints: vec![(0, 1.0), (1, 1.0), (1, 1.0)],
+                influences_per_vertex: 1,
+                ..Vertices::default()
+            },
+            morph_targets: vec![MorphTarget { positions: vec![Vec3::Z; 3], ..MorphTarget::default() }],
+            ..Primitive::default()
+        };
+        let place = |translation, scale| Transform::Trs { translation, rotation: Quat::from_rotation_z(1.0), scale };
+        Asset {
+            scenes: vec![AssetScene { name: None, roots: vec![0, 1] }],
+            nodes: vec![
+                Node { mesh: Some(0), weights: vec![0.0], ..Node::default() },
+                Node { transform: place(Vec3::new(0.0, 5.0, 0.0), Vec3::splat(3.0)), ..Node::default() },
+            ],
+            meshes: vec![Mesh { primitives: vec![primitive], ..Mesh::default() }],
+            skins: vec![Skin { joints: vec![0, 1], inverse_bind: vec![Mat4::IDENTITY; 2] }],
+            ..Asset::default()
+        }
+    }
+
+    fn bounds(asset: &Asset) -> Aabb {
+        world_bounds(asset, 0, &pose(asset, None, 0.0))
+    }
+
+    #[test]
+    fn unused_vertices_do_not_count_and_morphs_do() {
+        let mut asset = asset();
+        assert_eq!(bounds(&asset), Aabb { min: Vec3::ZERO, max: Vec3::new(2.0, 0.0, 0.0) });
+        asset.nodes[0].weights = vec![0.5];
+        assert_eq!(bounds(&asset), Aabb { min: Vec3::new(0.0, 0.0, 0.5), max: Vec3::new(2.0, 0.0, 0.5) });
+    }
+
+    #[test]
+    fn skinned_meshes_are_bounded_where_their_joints_put_them() {
+        let mut asset = asset();
+        asset.nodes[0].skin = Some(0);
+        let exact = bounds(&asset);
+        let tip = Vec3::new(6.0 * 1f32.cos(), 5.0 + 6.0 * 1f32.sin(), 0.0);
+        assert!((exact.max - tip).length() < 1e-5 && exact.min == Vec3::ZERO);
+        let joints = joint_matrices(&asset, 0, &pose(&asset, None, 0.0));
+        let boxes = joint_boxes(&asset.meshes[0].primitives[0], &[true, true, false], &joints, &[]);
+        assert!((boxes.max - exact.max).length() < 1e-5 && (boxes.min - exact.min).length() < 1e-5);
+        assert!((object_radius_m(&asset, 0) - 0.5 * tip.length()).abs() < 1e-5);
+    }
+
+    #[test]
+    fn an_object_radius_scales_with_its_node_and_not_with_its_turn() {
+        let mut asset = asset();
+        assert_eq!(object_radius_m(&asset, 0), 1.0);
+        asset.nodes[0].transform = asset.nodes[1].transform;
+        assert!((object_radius_m(&asset, 0) - 3.0).abs() < 1e-5);
+        assert_eq!(object_radius_m(&asset, 1), 0.0);
+    }
+
+    #[test]
+    fn an_empty_scene_has_empty_bounds() {
+        assert!(bounds(&Asset::default()).is_empty());
+    }
+}
