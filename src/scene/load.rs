@@ -1,0 +1,121 @@
+//! A scene: a file's plain data, dressed with materials.
+
+use super::SceneError;
+use super::bounds::object_radius_m;
+use crate::asset::{self, Asset, AssetError, LoadOptions, generate_tangents};
+use crate::material::{self, Look, Material, Standard};
+use crate::math::Aabb;
+use crate::scene::Instance;
+use glam::Vec3;
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A file's plain data, dressed with materials.
+#[derive(Debug)]
+pub struct Scene {
+    id: u64,
+    /// What the file says.
+    pub asset: Asset,
+    /// One per material of the asset, in its order.
+    pub materials: Vec<Material>,
+    /// Coat sizes by node: they need a rest pose, and every frame asks.
+    radii_m: Mutex<HashMap<usize, f32>>,
+}
+
+impl Scene {
+    /// Loads a .gltf or .glb file.
+    ///
+    /// # Errors
+    /// When the file is not there, not glTF, not supported or not to be trusted; the error says where and what to do.
+    pub fn load(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Self, SceneError> {
+        Self::from_asset(asset::load(path.as_ref(), options)?)
+    }
+
+    /// The embedded gallery: what the program is for, by formulas alone.
+    pub fn gallery() -> Self {
+        Self::from_asset(asset::gallery()).unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+    }
+
+    /// Dresses plain data with the materials that it names.
+    ///
+    /// # Errors
+    /// When a material's `vair` keys are wrong.
+    pub fn from_asset(mut asset: Asset) -> Result<Self, SceneError> {
+        let materials = material::from_asset(&mut asset)?;
+        Ok(Self::new(asset, materials))
+    }
+
+    /// Puts a look on the materials; its pictures are read from `folder`.
+    ///
+    /// # Errors
+    /// When a key, a value, a file or a material name is wrong; the error names the line.
+    pub fn apply(&mut self, look: &Look, folder: &Path, options: &LoadOptions) -> Result<(), SceneError> {
+        let mut read = |file: &str| {
+            asset::read_inside(folder, file, options.allow_outside)
+                .and_then(|bytes| asset::decode_image(&bytes, file, options.memory_limit_bytes))
+                .map_err(|error: AssetError| error.to_string())
+        };
+        look.apply(&mut self.asset, &mut self.materials, &mut read)?;
+        let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
+        *self = Self::new(asset, materials);
+        Ok(())
+    }
+
+    /// A scene is a new one whenever its asset or materials change: what the device keeps of it goes by this number.
+    fn new(mut asset: Asset, materials: Vec<Material>) -> Self {
+        static NEXT_ID: AtomicU64 = AtomicU64::new(1);
+        add_missing_tangents(&mut asset, &materials);
+        Self { id: NEXT_ID.fetch_add(1, Ordering::Relaxed), asset, materials, radii_m: Mutex::default() }
+    }
+
+    /// Tells scenes apart; no two have the same.
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// The surface of a material; under fur it is the skin, which continues the coat's roots.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn standard(&self, material: usize, under_fur: bool) -> Cow<'_, Standard> {
+        let Material { standard, fur, .. } = &self.materials[material];
+        match fur {
+            Some(fur) if under_fur => Cow::Owned(fur.skin(standard)),
+            _ => Cow::Borrowed(standard),
+        }
+    }
+
+    /// Radius of the sphere around an instance's mesh in its rest pose, world metres, > 0.
+    pub fn world_radius_m(&self, instance: &Instance) -> f32 {
+        let mut radii_m = self.radii_m.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let radius_m = *radii_m.entry(instance.node).or_insert_with(|| object_radius_m(&self.asset, instance.node));
+        radius_m.max(f32::MIN_POSITIVE)
+    }
+
+    /// Radius of the sphere around a mesh's positions, in their units, > 0.
+    pub fn rest_radius(&self, mesh: usize) -> f32 {
+        let positions = self.asset.meshes[mesh].primitives.iter().flat_map(|primitive| &primitive.vertices.positions);
+        let bounds = Aabb::of_points(positions.copied());
+        bounds.half_extent().length().max(f32::MIN_POSITIVE)
+    }
+
+    /// Middle of an instance's positions, object space.
+    pub fn middle_in_object(&self, instance: &Instance) -> Vec3 {
+        let positions = &self.asset.meshes[instance.mesh].primitives[instance.primitive].vertices.positions;
+        Aabb::of_points(positions.iter().copied()).center()
+    }
+}
+
+/// A look may put a normal map where the file had none.
+fn add_missing_tangents(asset: &mut Asset, materials: &[Material]) {
+    for primitive in asset.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        let standard = &materials[primitive.material].standard;
+        let wanted = standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture);
+        if let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) {
+            generate_tangents(primitive, map.uv_set as usize);
+        }
+    }
+}
