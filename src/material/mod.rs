@@ -1,1 +1,3 @@
-//! material.
+//! Materials.
+
+pub mod reference;

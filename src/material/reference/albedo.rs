@@ -1,0 +1,229 @@
+//! Twin of `albedo.glsl`: directional albedo of the GGX lobe, by quadrature and by the fit that the shader evaluates.
+
+use super::ggx::alpha_of_roughness;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Nodes and weights of Gauss-Legendre quadrature on [0, 1] with `count` points.
+///
+/// Newton's iteration on the Legendre polynomial, from the usual cosine start (Press et al. 2007, "Numerical
+/// Recipes", section 4.6).
+pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
+    let n = count as f64;
+    (0..count)
+        .map(|i| {
+            let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
+            let mut slope = 1.0;
+            for _ in 0..100 {
+                let (mut p, mut previous) = (1.0, 0.0);
+                for j in 0..count {
+                    let j = j as f64;
+                    (p, previous) = (((2.0 * j + 1.0) * x * p - j * previous) / (j + 1.0), p);
+                }
+                slope = n * (x * p - previous) / (x * x - 1.0);
+                let step = p / slope;
+                x -= step;
+                if step.abs() < 1e-15 {
+                    break;
+                }
+            }
+            (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
+        })
+        .collect()
+}
+
+/// Directional albedo of isotropic GGX with height-correlated Smith, single scattering, by quadrature:
+/// `(scale, bias)` with `E(F0) = F0 scale + bias` (Schlick, F90 = 1). `mu` = cosine of the view angle in (0, 1].
+///
+/// Integrates over the visible normals (Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
+/// where the integrand is smooth; `rule` comes from [`gauss_legendre`], 96 points give 1e-5.
+pub fn directional_albedo(mu: f64, alpha: f64, rule: &[(f64, f64)]) -> (f64, f64) {
+    let view = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
+    let stretched = DVec3::new(alpha * view.x, 0.0, view.z).normalize();
+    let lambda = |cosine: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 / (cosine * cosine) - 1.0)).max(1.0).sqrt() - 1.0);
+    let lambda_view = lambda(mu);
+    let (mut scale, mut bias) = (0.0, 0.0);
+    for &(u, weight_u) in rule {
+        let z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
+        let radius = (1.0 - z * z).max(0.0).sqrt();
+        for &(p, weight_p) in rule {
+            let (sin, cos) = (p * PI).sin_cos();
+            let cap = DVec3::new(radius * cos, radius * sin, z) + stretched;
+            let h = DVec3::new(alpha * cap.x, alpha * cap.y, cap.z.max(1e-12)).normalize();
+            let v_dot_h = view.dot(h);
+            let mu_l = 2.0 * v_dot_h * h.z - mu;
+            if mu_l <= 0.0 {
+                continue;
+            }
+            let shadowing = (1.0 + lambda_view) / (1.0 + lambda_view + lambda(mu_l.min(1.0)));
+            let weight = weight_u * weight_p * shadowing;
+            let fresnel = (1.0 - v_dot_h.clamp(0.0, 1.0)).powi(5);
+            scale += weight * (1.0 - fresnel);
+            bias += weight * fresnel;
+        }
+    }
+    (scale, bias)
+}
+
+/// Rows of the loss polynomial: powers of t from 0; each row holds powers 0..=3 of alpha.
+pub const WHITE_ROWS: usize = 9;
+/// Total degree of the Fresnel polynomial in (mu, t, roughness).
+pub const FRESNEL_DEGREE: usize = 5;
+/// Coefficients of the Fresnel polynomial.
+pub const FRESNEL_TERMS: usize = 56;
+/// Powers 0.. of roughness in the average polynomials.
+pub const AVERAGE_TERMS: usize = 9;
+/// Share of alpha in the variable `t = (mu - k alpha) / (mu + k alpha)`, which follows the lobe's own scale.
+pub const ALPHA_SHARE: f64 = 0.7;
+
+/// Coefficients of the fits in `albedo.glsl`.
+///
+/// White albedo `E1 = sum white[i][j] t^i alpha^j`; Fresnel share `Q = q^5`, q a polynomial in (mu, t, roughness);
+/// then `bias = E1 Q`, `scale = E1 (1 - Q)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// `[power of t][power of alpha]`.
+    pub white: [[f64; 4]; WHITE_ROWS],
+    /// In the order of [`fresnel_basis`].
+    pub fresnel: [f64; FRESNEL_TERMS],
+    /// `[power of roughness]` -> cosine-weighted averages of (E1 Q, E1, Q).
+    pub averages: [[f64; 3]; AVERAGE_TERMS],
+}
+
+/// Roughness as the fits take it: below the square root of the smallest alpha nothing changes.
+pub fn fitted_roughness(roughness: f64) -> f64 {
+    alpha_of_roughness(roughness).sqrt()
+}
+
+/// t of the fits.
+pub fn scaled_cosine(mu: f64, alpha: f64) -> f64 {
+    (mu - ALPHA_SHARE * alpha) / (mu + ALPHA_SHARE * alpha)
+}
+
+/// Monomials of the Fresnel polynomial, in the order of the file: powers of mu from high to low, in it powers of t
+/// from high to low, in it powers of roughness from low to high.
+pub fn fresnel_basis(mu: f64, t: f64, roughness: f64) -> [f64; FRESNEL_TERMS] {
+    let mut terms = [0.0; FRESNEL_TERMS];
+    let mut next = terms.iter_mut();
+    for i in (0..=FRESNEL_DEGREE as i32).rev() {
+        for j in (0..=FRESNEL_DEGREE as i32 - i).rev() {
+            for k in 0..=FRESNEL_DEGREE as i32 - i - j {
+                if let Some(term) = next.next() {
+                    *term = mu.powi(i) * t.powi(j) * roughness.powi(k);
+                }
+            }
+        }
+    }
+    terms
+}
+
+impl Fit {
+    /// Reads the coefficients out of the text of `albedo.glsl`: all numbers between the lines `// fit: begin` and
+    /// `// fit: end`. `None` if there are not exactly as many as a fit has.
+    pub fn parse(glsl: &str) -> Option<Self> {
+        let (_, text) = glsl.split_once("// fit: begin")?;
+        let (text, _) = text.split_once("// fit: end")?;
+        // Every coefficient is a signed literal with a point, inside a constructor or alone; other numbers have none.
+        let mut numbers = text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .flat_map(|line| line.split(|c: char| !(c.is_ascii_alphanumeric() || ".+-_".contains(c))))
+            .filter(|word| word.contains('.') && word.contains(|c: char| c.is_ascii_digit()))
+            .filter_map(|word| word.parse::<f64>().ok());
+        let mut white = [[0.0; 4]; WHITE_ROWS];
+        for row in white.iter_mut().rev() {
+            for coefficient in row {
+                *coefficient = numbers.next()?;
+            }
+        }
+        let mut fresnel = [0.0; FRESNEL_TERMS];
+        for coefficient in &mut fresnel {
+            *coefficient = numbers.next()?;
+        }
+        let mut averages = [[0.0; 3]; AVERAGE_TERMS];
+        for row in averages.iter_mut().rev() {
+            for coefficient in row {
+                *coefficient = numbers.next()?;
+            }
+        }
+        numbers.next().is_none().then_some(Self { white, fresnel, averages })
+    }
+
+    /// The fit that the shaders are built with.
+    ///
+    /// # Panics
+    /// If the embedded `albedo.glsl` holds no fit; a test of this module keeps it whole.
+    pub fn shipped() -> Self {
+        Self::parse(include_str!("../../../shaders_glsl/lib/albedo.glsl")).expect("albedo.glsl holds one whole fit")
+    }
+
+    /// `(E1, Q)` at the cosine `mu` and the perceptual `roughness`, both in [0, 1].
+    pub fn terms(&self, mu: f64, roughness: f64) -> (f64, f64) {
+        let mu = mu.clamp(0.0, 1.0);
+        let alpha = alpha_of_roughness(roughness);
+        let t = scaled_cosine(mu, alpha);
+        let row = |c: &[f64; 4]| c[0] + alpha * (c[1] + alpha * (c[2] + alpha * c[3]));
+        let white = self.white.iter().rev().fold(0.0, |sum, c| sum * t + row(c));
+        let basis = fresnel_basis(mu, t, alpha.sqrt());
+        let q: f64 = basis.iter().zip(&self.fresnel).map(|(term, c)| term * c).sum();
+        (white.clamp(0.0, 1.0), q.clamp(0.0, 1.0).powi(5))
+    }
+
+    /// `(scale, bias)`: `E(F0) = F0 scale + bias`, single scattering.
+    pub fn directional_albedo(&self, mu: f64, roughness: f64) -> (f64, f64) {
+        let (white, fresnel) = self.terms(mu, roughness);
+        (white * (1.0 - fresnel), white * fresnel)
+    }
+
+    /// Albedo with Turquin's energy compensation: `E(F0) (1 + F0 (1 - E1) / E1)`, in [0, 1].
+    pub fn compensated_albedo(&self, f0: f64, mu: f64, roughness: f64) -> f64 {
+        let (white, fresnel) = self.terms(mu, roughness);
+        (f0 + (1.0 - f0) * fresnel) * (white + f0 * (1.0 - white))
+    }
+
+    /// Cosine-weighted averages of (E1 Q, E1, Q) over the hemisphere.
+    pub fn averages(&self, roughness: f64) -> [f64; 3] {
+        let roughness = fitted_roughness(roughness);
+        let mut sum = [0.0; 3];
+        for row in self.averages.iter().rev() {
+            for (value, c) in sum.iter_mut().zip(row) {
+                *value = *value * roughness + c;
+            }
+        }
+        sum
+    }
+
+    /// Cosine-weighted average of [`Fit::compensated_albedo`].
+    pub fn average_compensated_albedo(&self, f0: f64, roughness: f64) -> f64 {
+        let [both, white, fresnel] = self.averages(roughness);
+        both + f0 * ((white + fresnel - 2.0 * both) + f0 * (1.0 - white - fresnel + both))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shipped_fit_is_whole() {
+        let text = include_str!("../../../shaders_glsl/lib/albedo.glsl");
+        assert!(Fit::parse(text).is_some());
+        assert!(Fit::parse(&text.replacen("vec4(", "vec4(1.5, ", 3)).is_none(), "a stray number must be noticed");
+    }
+
+    #[test]
+    fn gauss_legendre_integrates_polynomials_exactly() {
+        let rule = gauss_legendre(8);
+        let integral: f64 = rule.iter().map(|(x, w)| w * x.powi(15)).sum();
+        assert!((integral - 1.0 / 16.0).abs() < 1e-14, "{integral}");
+    }
+
+    #[test]
+    fn quadrature_has_converged() {
+        let (coarse, fine) = (gauss_legendre(96), gauss_legendre(200));
+        for (mu, alpha) in [(1e-3, 1e-3), (1e-3, 0.3), (0.05, 1.0), (0.3, 0.1), (1.0, 1.0)] {
+            let (a, b) = (directional_albedo(mu, alpha, &coarse), directional_albedo(mu, alpha, &fine));
+            assert!((a.0 - b.0).abs() < 2e-5 && (a.1 - b.1).abs() < 2e-5, "{mu} {alpha}: {a:?} {b:?}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Double-precision twins of the shader functions, written from the formulas and sharing no code with the shaders.
+//!
+//! Each file is named after the GLSL file in `shaders_glsl/lib` that it judges. The one thing both sides share is
+//! data: [`albedo::Fit`] reads the fitted coefficients out of `albedo.glsl`, so that there is one declaration of them.
+//! All directions are unit vectors in the tangent frame (z = normal) and point away from the surface.
+
+pub mod albedo;
+pub mod color;
+pub mod ggx;
+pub mod standard;
+pub mod tonemap;

@@ -1,0 +1,72 @@
+//! Twin of `standard.glsl`: Lambert under GGX, coupled so that nothing is gained.
+//!
+//! Turquin 2019, "Practical multiple scattering compensation for microfacet models" (the specular factor);
+//! Kelemen & Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model" (the reciprocal diffuse).
+
+use super::albedo::Fit;
+use super::ggx;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Reflectance at normal incidence of a dielectric of index 1.5.
+pub const DIELECTRIC_F0: f64 = 0.04;
+
+/// What the BRDF needs to know of the surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface {
+    /// Linear, [0, 1].
+    pub base_color: DVec3,
+    /// [0, 1].
+    pub metallic: f64,
+    /// Perceptual, [0, 1].
+    pub roughness: f64,
+}
+
+impl Surface {
+    fn f0(&self, channel: usize) -> f64 {
+        DIELECTRIC_F0 + (self.base_color[channel] - DIELECTRIC_F0) * self.metallic
+    }
+
+    /// Diffuse albedo before the coupling.
+    fn diffuse(&self, channel: usize) -> f64 {
+        self.base_color[channel] * (1.0 - self.metallic)
+    }
+
+    /// The diffuse lobe alone, without its cosine: `rho / pi (1 - E(v)) (1 - E(l)) / (1 - E_average)`. Reciprocal.
+    pub fn diffuse_brdf(&self, fit: &Fit, mu_v: f64, mu_l: f64) -> DVec3 {
+        per_channel(|channel| {
+            let f0 = self.f0(channel);
+            let left = |mu| 1.0 - fit.compensated_albedo(f0, mu, self.roughness);
+            let average = (1.0 - fit.average_compensated_albedo(f0, self.roughness)).max(1e-4);
+            self.diffuse(channel) / PI * left(mu_v) * left(mu_l) / average
+        })
+    }
+
+    /// BRDF times `mu_l`; 0 where a direction is at or below the horizon.
+    pub fn brdf_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
+        if v.z <= 0.0 || l.z <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let alpha = ggx::alpha_of_roughness(self.roughness);
+        let h = ggx::half_vector(v, l);
+        let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
+        let (white, _) = fit.terms(v.z, self.roughness);
+        let specular = per_channel(|channel| {
+            let f0 = self.f0(channel);
+            lobe * ggx::schlick(f0, v.dot(h)) * (1.0 + f0 * (1.0 - white) / white)
+        });
+        specular + self.diffuse_brdf(fit, v.z, l.z) * l.z
+    }
+
+    /// Radiance under constant white radiance 1, by the fit.
+    pub fn ambient(&self, fit: &Fit, mu_v: f64) -> DVec3 {
+        per_channel(|channel| {
+            let specular = fit.compensated_albedo(self.f0(channel), mu_v, self.roughness);
+            specular + self.diffuse(channel) * (1.0 - specular)
+        })
+    }
+}
+
+fn per_channel(value: impl Fn(usize) -> f64) -> DVec3 {
+    DVec3::new(value(0), value(1), value(2))
+}
