@@ -1,5 +1,5 @@
 // Texture coordinates: KHR_texture_transform, and a projection for meshes that have none.
-// Needs host/standard.glsl for TextureTransform.
+// Needs host/standard_material.glsl for TextureTransform.
 
 vec2 uv_transformed(TextureTransform transform, vec2 uv_0, vec2 uv_1) {
     vec3 uv = vec3(transform.uv_set == 0u ? uv_0 : uv_1, 1.0);

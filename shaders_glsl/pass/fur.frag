@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // One shell layer of fur: which strands cut it here, and the light they send to the eye.
 #include "frame.glsl"
-#include "standard.glsl"
-#include "fur.glsl"
+#include "standard_material.glsl"
+#include "fur_material.glsl"
 #include "light.glsl"
 #include "uv.glsl"
 #include "hash.glsl"
@@ -11,13 +11,13 @@
 #include "coverage.glsl"
 
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
-layout(constant_id = 6) const uint BLEND = 0;            // 1: over-blending instead of sample coverage
-layout(constant_id = 7) const uint PARABOLOID = 0;
-layout(constant_id = 8) const uint HAS_DISTRIBUTION_MAP = 0;
-layout(constant_id = 9) const uint HAS_BASE_COLOR_MAP = 0;
-layout(constant_id = 10) const uint HAS_SPOT_MAP = 0;
-layout(constant_id = 11) const uint HAS_LOCKS = 0;       // clump or curl
-layout(constant_id = 12) const uint HARD_CUT = 0;        // cutout: opacity is 0 or 1 but for the edge
+layout(constant_id = 6) const bool BLEND = false;            // 1: over-blending instead of sample coverage
+layout(constant_id = 7) const bool PARABOLOID = false;
+layout(constant_id = 8) const bool HAS_DISTRIBUTION_MAP = false;
+layout(constant_id = 9) const bool HAS_BASE_COLOR_MAP = false;
+layout(constant_id = 10) const bool HAS_SPOT_MAP = false;
+layout(constant_id = 11) const bool HAS_LOCKS = false;       // clump or curl
+layout(constant_id = 12) const bool HARD_CUT = false;        // cutout: opacity is 0 or 1 but for the edge
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
@@ -101,12 +101,11 @@ void main() {
     vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
     vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
 
-    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID != 0u) + fur.taper * height * height;
+    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + fur.taper * height * height;
     float own_random = 0.5;
     float opacity;
-    uint has_map = HAS_DISTRIBUTION_MAP;
 #ifdef MAPS
-    if (has_map != 0u) {
+    if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
         vec2 gradient_x = dFdx(map_uv);
         vec2 gradient_y = dFdy(map_uv);
@@ -124,7 +123,7 @@ void main() {
         float segment_length = length(half_segment);
         if (segment_length > 0.5) { half_segment *= 0.5 / segment_length; }
         vec3 in_cells = root_in_rest * cells_per_unit;
-        if (HAS_LOCKS != 0u) { in_cells = lock_root(in_cells, rest_normal, height); }
+        if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height); }
         StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
         // The narrower footprint: the wider one, at grazing angles, runs along the segment.
         float footprint = sqrt(min(dot(cell_x, cell_x), dot(cell_y, cell_y)));
@@ -135,13 +134,12 @@ void main() {
     // 1 - k^2 times a mix with the cosine: in [0, 1] by construction.
     opacity *= mix(1.0, 1.0 - height * height, fur.tip_fade) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 
-    uint blend = BLEND;
     uint samples = SAMPLE_COUNT;
     int mask = -1;
-    if (blend != 0u) {
+    if (BLEND) {
         if (opacity <= 0.0) { discard; }
     } else {
-        if (HARD_CUT != 0u && samples == 1u) { opacity = opacity >= 0.5 ? 1.0 : 0.0; }
+        if (HARD_CUT && samples == 1u) { opacity = opacity >= 0.5 ? 1.0 : 0.0; }
         mask = coverage_mask(opacity, samples, uvec2(gl_FragCoord.xy));
         if (mask == 0) { discard; }
     }
@@ -152,11 +150,11 @@ void main() {
     color *= vertex_color;
 #endif
 #ifdef MAPS
-    if (HAS_BASE_COLOR_MAP != 0u) {
+    if (HAS_BASE_COLOR_MAP) {
         vec2 uv = uv_transformed(fur.base_color_transform, uv_sets.xy, uv_sets.zw);
         color *= texture(sampler2D(base_color_map, base_color_sampler), uv).rgb;
     }
-    if (HAS_SPOT_MAP != 0u) {
+    if (HAS_SPOT_MAP) {
         vec2 uv = uv_transformed(fur.spot_transform, uv_sets.xy, uv_sets.zw);
         color = mix(color, fur.spot_color, texture(sampler2D(spot_map, spot_sampler), uv).r);
     }
@@ -172,5 +170,5 @@ void main() {
         vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
         sum += light.irradiance * through * scattered;
     }
-    radiance = blend != 0u ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+    radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
 }

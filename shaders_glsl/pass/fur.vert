@@ -3,17 +3,17 @@
 // One shell layer per instance; instance 0 is the outermost, so that early depth tests reject what it hides.
 #include "frame.glsl"
 #include "object.glsl"
-#include "standard.glsl"
-#include "fur.glsl"
+#include "standard_material.glsl"
+#include "fur_material.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
 #include "uv.glsl"
 
-layout(constant_id = 0) const uint INNER_FIRST = 0;    // 1: instance 0 is the innermost (blend mode)
-layout(constant_id = 1) const uint LINEAR_BEND = 0;    // 1: classic displacement, which lengthens strands
-layout(constant_id = 2) const uint PROJECT_UV = 0;     // 1: the mesh has no UVs
-layout(constant_id = 3) const uint HAS_HEIGHT_MAP = 0;
-layout(constant_id = 4) const uint FORCE_IN_OBJECT = 0;
+layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
+layout(constant_id = 1) const bool LINEAR_BEND = false;    // 1: classic displacement, which lengthens strands
+layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
+layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
+layout(constant_id = 4) const bool FORCE_IN_OBJECT = false;
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
@@ -60,8 +60,7 @@ void main() {
     vec3 direction = unit_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
 
     uint shell = uint(gl_InstanceIndex);
-    uint inner_first = INNER_FIRST;
-    uint layer = inner_first != 0u ? shell : fur.layers - 1u - shell;
+    uint layer = INNER_FIRST ? shell : fur.layers - 1u - shell;
     // The middle of slab [layer / N, (layer + 1) / N].
     float height = (float(layer) + 0.5) / float(fur.layers);
 
@@ -72,8 +71,8 @@ void main() {
 #endif
 #ifdef MAPS
     uv_sets = vec4(uv_0, uv_1);
-    if (PROJECT_UV != 0u) { uv_sets = vec4(uv_projected(rest_position, rest_direction) * fur.projection_scale, 0.0, 0.0); }
-    if (HAS_HEIGHT_MAP != 0u) {
+    if (PROJECT_UV) { uv_sets = vec4(uv_projected(rest_position, rest_direction) * fur.projection_scale, 0.0, 0.0); }
+    if (HAS_HEIGHT_MAP) {
         vec2 uv = uv_transformed(fur.height_transform, uv_sets.xy, uv_sets.zw);
         float map = textureLod(sampler2D(height_map, height_sampler), uv, 0.0).r;
         strand_length *= mix(1.0, map, fur.height_strength);
@@ -81,7 +80,7 @@ void main() {
 #endif
 
     vec3 force = fur.force;
-    if (FORCE_IN_OBJECT != 0u) { force = unit_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
+    if (FORCE_IN_OBJECT) { force = unit_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
     // The comb lays strands over in the tangent plane; its axes come from the world's up direction.
     vec3 side = unit_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
     vec3 total = force + fur.comb.x * side + fur.comb.y * cross(direction, side);
@@ -91,7 +90,7 @@ void main() {
     vec3 sideways = unit_or(total - dot(total, direction) * direction, side);
     vec2 bent;
     vec3 strand;
-    if (LINEAR_BEND != 0u) {
+    if (LINEAR_BEND) {
         bent = vec2(0.0, height);
         position_in_world = root + (direction * height + total * height * height) * strand_length;
         strand = unit_or(direction + 2.0 * height * total, direction);

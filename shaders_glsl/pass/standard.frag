@@ -2,24 +2,22 @@
 #extension GL_GOOGLE_include_directive : require
 // The standard material: metallic-roughness, lit by punctual lights and a constant ambient.
 #include "frame.glsl"
-#include "standard.glsl"
+#include "standard_material.glsl"
 #include "light.glsl"
 #include "uv.glsl"
 #include "coverage.glsl"
-#include "ggx.glsl"
-#include "albedo.glsl"
-#include "standard_surface.glsl"
+#include "standard.glsl"
 
 layout(constant_id = 0) const uint ALPHA_MODE = 0; // 0 opaque, 1 mask, 2 blend
 layout(constant_id = 1) const uint SAMPLE_COUNT = 1;
-layout(constant_id = 2) const uint DOUBLE_SIDED = 0;
-layout(constant_id = 3) const uint HAS_BASE_COLOR_MAP = 0;
-layout(constant_id = 4) const uint HAS_METALLIC_ROUGHNESS_MAP = 0;
-layout(constant_id = 5) const uint HAS_OCCLUSION_MAP = 0;
-layout(constant_id = 6) const uint HAS_EMISSIVE_MAP = 0;
-layout(constant_id = 7) const uint HAS_NORMAL_MAP = 0;
-layout(constant_id = 8) const uint HAS_DETAIL_ALBEDO_MAP = 0;
-layout(constant_id = 9) const uint HAS_DETAIL_NORMAL_MAP = 0;
+layout(constant_id = 2) const bool DOUBLE_SIDED = false;
+layout(constant_id = 3) const bool HAS_BASE_COLOR_MAP = false;
+layout(constant_id = 4) const bool HAS_METALLIC_ROUGHNESS_MAP = false;
+layout(constant_id = 5) const bool HAS_OCCLUSION_MAP = false;
+layout(constant_id = 6) const bool HAS_EMISSIVE_MAP = false;
+layout(constant_id = 7) const bool HAS_NORMAL_MAP = false;
+layout(constant_id = 8) const bool HAS_DETAIL_ALBEDO_MAP = false;
+layout(constant_id = 9) const bool HAS_DETAIL_NORMAL_MAP = false;
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 1, binding = 0, std140) uniform StandardBlock { StandardUniforms material; };
@@ -71,13 +69,13 @@ vec4 base_color() {
     color *= vertex_color;
 #endif
 #ifdef UV
-    if (HAS_BASE_COLOR_MAP != 0u) {
+    if (HAS_BASE_COLOR_MAP) {
         vec2 uv = uv_transformed(material.base_color_transform, uv_sets.xy, uv_sets.zw);
         color *= texture(sampler2D(base_color_map, base_color_sampler), uv);
     }
 #endif
 #ifdef DETAIL
-    if (HAS_DETAIL_ALBEDO_MAP != 0u) {
+    if (HAS_DETAIL_ALBEDO_MAP) {
         vec2 uv = uv_transformed(material.detail_albedo_transform, uv_sets.xy, uv_sets.zw);
         // Twice the map, so that mid grey (0.2140 linear, 0.5 stored) leaves the base colour as it is.
         vec3 detail = texture(sampler2D(detail_albedo_map, detail_albedo_sampler), uv).rgb;
@@ -91,13 +89,13 @@ vec4 base_color() {
 vec3 shading_normal(vec3 geometric_normal) {
 #ifdef TANGENT
     vec3 in_tangent = vec3(0.0, 0.0, 1.0);
-    if (HAS_NORMAL_MAP != 0u) {
+    if (HAS_NORMAL_MAP) {
         vec2 uv = uv_transformed(material.normal_transform, uv_sets.xy, uv_sets.zw);
         in_tangent = texture(sampler2D(normal_map, normal_sampler), uv).xyz * 2.0 - 1.0;
         in_tangent.xy *= material.normal_scale;
     }
 #ifdef DETAIL
-    if (HAS_DETAIL_NORMAL_MAP != 0u) {
+    if (HAS_DETAIL_NORMAL_MAP) {
         vec2 uv = uv_transformed(material.detail_normal_transform, uv_sets.xy, uv_sets.zw);
         vec3 detail = texture(sampler2D(detail_normal_map, detail_normal_sampler), uv).xyz * 2.0 - 1.0;
         detail.xy *= material.detail_normal_scale;
@@ -118,6 +116,16 @@ vec3 shading_normal(vec3 geometric_normal) {
     return geometric_normal;
 }
 #endif
+
+// Any frame around the normal serves an isotropic lobe. Source: Duff et al. 2017, "Building an Orthonormal Basis,
+// Revisited".
+mat3 frame_around(vec3 normal) {
+    float side = normal.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    return mat3(vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x),
+                vec3(b, side + normal.y * normal.y * a, -normal.y), normal);
+}
 
 void main() {
     vec4 color = base_color();
@@ -143,38 +151,41 @@ void main() {
     float normal_length = dot(normal_in_world, normal_in_world);
     vec3 normal = normal_length > 1e-20 ? normal_in_world * inversesqrt(normal_length) : frame.view_in_world;
     normal = shading_normal(normal);
-    if (DOUBLE_SIDED != 0u && !gl_FrontFacing) { normal = -normal; }
+    if (DOUBLE_SIDED && !gl_FrontFacing) { normal = -normal; }
 
     float metallic = material.metallic;
     float roughness = material.roughness;
     float occlusion = 1.0;
     vec3 emissive = material.emissive;
 #ifdef UV
-    if (HAS_METALLIC_ROUGHNESS_MAP != 0u) {
+    if (HAS_METALLIC_ROUGHNESS_MAP) {
         vec2 uv = uv_transformed(material.metallic_roughness_transform, uv_sets.xy, uv_sets.zw);
         vec4 map = texture(sampler2D(metallic_roughness_map, metallic_roughness_sampler), uv);
         roughness *= map.g;
         metallic *= map.b;
     }
-    if (HAS_OCCLUSION_MAP != 0u) {
+    if (HAS_OCCLUSION_MAP) {
         vec2 uv = uv_transformed(material.occlusion_transform, uv_sets.xy, uv_sets.zw);
         float map = texture(sampler2D(occlusion_map, occlusion_sampler), uv).r;
         occlusion = 1.0 + material.occlusion_strength * (map - 1.0);
     }
-    if (HAS_EMISSIVE_MAP != 0u) {
+    if (HAS_EMISSIVE_MAP) {
         vec2 uv = uv_transformed(material.emissive_transform, uv_sets.xy, uv_sets.zw);
         emissive *= texture(sampler2D(emissive_map, emissive_sampler), uv).rgb;
     }
 #endif
 
     vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : normalize(frame.eye_in_world - position_in_world);
-    StandardSurface surface = standard_surface(color.rgb, metallic, roughness, max(dot(normal, to_eye), 1e-4));
+    mat3 tangent_frame = frame_around(normal);
+    // A bent normal may turn away from the eye; grazing is then the nearest view that has a meaning.
+    vec3 eye_in_tangent = to_eye * tangent_frame;
+    eye_in_tangent.z = max(eye_in_tangent.z, 1e-3);
+    StandardSurface surface = standard_surface(clamp(color.rgb, 0.0, 1.0), metallic, roughness, eye_in_tangent.z);
     vec3 sum = frame.ambient_radiance * occlusion * standard_ambient(surface);
     for (uint index = 0u; index < frame.light_count; ++index) {
         LightSample light = light_sample(lights[index], position_in_world);
-        if (dot(normal, light.direction_in_world) > 0.0) {
-            sum += light.irradiance * standard_reflected(surface, normal, to_eye, light.direction_in_world);
-        }
+        vec3 light_in_tangent = light.direction_in_world * tangent_frame;
+        sum += light.irradiance * standard_brdf_times_cosine(surface, eye_in_tangent, light_in_tangent);
     }
     radiance = vec4((sum + emissive) * opacity, opacity);
 #endif

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 // Linear HDR to the picture: exposure, tone curve, background, display encoding.
 #include "color.glsl"
 #include "tonemap.glsl"
 
 layout(constant_id = 0) const uint OPERATOR = 0;      // 0 none, 1 aces, 2 agx, 3 neutral
-layout(constant_id = 1) const uint ENCODE_SRGB = 1;   // 0: the target encodes by itself
-layout(constant_id = 2) const uint HAS_ALPHA = 1;     // 0: the HDR format has no alpha, everything is opaque
+layout(constant_id = 1) const bool ENCODE_SRGB = true;   // 0: the target encodes by itself
+layout(constant_id = 2) const bool HAS_ALPHA = true;     // 0: the HDR format has no alpha, everything is opaque
 
 struct TonemapDraw {
     vec3 background;           // linear RGB shown where nothing was drawn, display light
@@ -31,7 +32,7 @@ vec3 display_from_radiance(vec3 radiance) {
 
 void main() {
     vec4 premultiplied = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0);
-    float opacity = HAS_ALPHA != 0u ? clamp(premultiplied.a, 0.0, 1.0) : 1.0;
+    float opacity = HAS_ALPHA ? clamp(premultiplied.a, 0.0, 1.0) : 1.0;
     // The curve bends radiance, not coverage: divide before it, multiply after it.
     vec3 radiance = max(premultiplied.rgb, vec3(0.0)) * draw.exposure;
     if (opacity > 0.0) { radiance /= opacity; }
@@ -40,5 +41,5 @@ void main() {
     vec3 over = mix(background, display, opacity);
     vec3 shown = draw.background_opacity > 0.5 ? over : display;
     float alpha = draw.background_opacity > 0.5 ? 1.0 : opacity;
-    color = vec4(ENCODE_SRGB != 0u ? srgb_from_linear(shown) : shown, alpha);
+    color = vec4(ENCODE_SRGB ? srgb_from_linear(shown) : shown, alpha);
 }

@@ -6,6 +6,11 @@
 
 pub mod albedo;
 pub mod color;
+pub mod coverage;
 pub mod ggx;
+pub mod hash;
+pub mod light;
 pub mod standard;
+pub mod strand;
 pub mod tonemap;
+pub mod uv;
