@@ -18,6 +18,8 @@ mod layout;
 mod permutation;
 #[path = "build/reflect.rs"]
 mod reflect;
+#[path = "build/spirv.rs"]
+mod spirv;
 #[path = "build/table.rs"]
 mod table;
 
@@ -89,14 +91,27 @@ fn build_all(permutations: Vec<Permutation>, root: &Path, out: &Path) -> Result<
         return Err(vec!["a shader thread of build.rs panicked: see the output above".to_owned()]);
     }
     results.sort_by_key(|(line, _)| *line);
-    let (mut built, mut errors) = (Vec::new(), Vec::new());
-    for (_, result) in results {
+    let mut built = Vec::new();
+    // One mistake shows in every permutation of its file: say it once.
+    let mut errors: Vec<(String, Vec<String>)> = Vec::new();
+    for ((_, result), permutation) in results.into_iter().zip(&permutations) {
         match result {
             Ok(shader) => built.push(shader),
-            Err(error) => errors.push(error),
+            Err(error) => match errors.iter_mut().find(|(known, _)| *known == error) {
+                Some((_, names)) => names.push(permutation.name()),
+                None => errors.push((error, vec![permutation.name()])),
+            },
         }
     }
-    if errors.is_empty() { Ok(built) } else { Err(errors) }
+    if errors.is_empty() {
+        return Ok(built);
+    }
+    let say = |(error, names): (String, Vec<String>)| match names.as_slice() {
+        [name] => format!("{error} (in {name})"),
+        [name, others @ ..] => format!("{error} (in {name} and {} more)", others.len()),
+        [] => error,
+    };
+    Err(errors.into_iter().map(say).collect())
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Vec<String>> {

@@ -7,13 +7,12 @@ use std::path::Path;
 /// What glslang adds to the messages of a file that does not compile; shown only when it is all there is.
 const NOISE: [&str; 4] = ["compilation errors.", "compilation terminated", "Missing entry point", "missing #endif"];
 
-/// Keeps what a reader needs of glslang's log: `file:line: message (permutation)`.
+/// Keeps what a reader needs of glslang's log: `file:line: message`.
 fn readable(log: &str, permutation: &Permutation) -> String {
     let messages: Vec<_> = log
         .lines()
         .filter_map(|line| line.trim().strip_prefix("ERROR: "))
         .filter(|line| !NOISE.iter().any(|noise| line.contains(noise)))
-        .map(|line| format!("{line} ({})", permutation.name()))
         .collect();
     if messages.is_empty() {
         format!("{}: glslang failed: {}", permutation.name(), log.trim())

@@ -51,13 +51,13 @@ fn append(
             return Err(format!("{}: write #include \"file.glsl\"", here()));
         };
         let folders = FOLDERS.map(|folder| root.join(folder).join(name));
-        let Some(target) = folders.iter().find(|candidate| candidate.is_file()) else {
-            return Err(format!(
-                "{}: `{name}` is in neither shaders_glsl/{}",
-                here(),
-                FOLDERS.join(" nor shaders_glsl/")
-            ));
+        let mut found = folders.iter().filter(|candidate| candidate.is_file());
+        let Some(target) = found.next() else {
+            return Err(format!("{}: `{name}` is in neither {}", here(), FOLDERS.map(shown).join(" nor ")));
         };
+        if found.next().is_some() {
+            return Err(format!("{}: `{name}` is in both {}: rename one", here(), FOLDERS.map(shown).join(" and ")));
+        }
         if open.contains(target) {
             return Err(format!("{}: `{name}` includes itself", here()));
         }
@@ -81,4 +81,8 @@ fn read(path: &Path) -> Result<String, String> {
 
 fn slashed(path: &Path) -> String {
     path.display().to_string().replace('\\', "/")
+}
+
+fn shown(folder: &str) -> String {
+    format!("shaders_glsl/{folder}")
 }

@@ -3,6 +3,7 @@
 
 use super::interface::{Binding, BindingKind, Field, FieldType, Interface, Slot, SpecConstant, Struct};
 use super::permutation::{Permutation, Stage};
+use super::spirv;
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ArraySize, Expression, Handle, ImageClass, Literal, Module, ScalarKind, Type, TypeInner};
 
@@ -10,9 +11,9 @@ use naga::{AddressSpace, ArraySize, Expression, Handle, ImageClass, Literal, Mod
 const VERTEX_FORMATS: [&str; 5] = ["float", "vec2", "vec3", "vec4", "uint"];
 
 /// The interface of one compiled permutation.
-pub(crate) fn reflect(permutation: &Permutation, spirv: &[u32]) -> Result<Interface, String> {
-    let at = |error: String| format!("{}: {error}", permutation.name());
-    let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+pub(crate) fn reflect(permutation: &Permutation, words: &[u32]) -> Result<Interface, String> {
+    let at = |error: String| format!("shaders_glsl/pass/{}: {error}", permutation.file);
+    let bytes: Vec<u8> = spirv::for_reflection(words).iter().flat_map(|word| word.to_le_bytes()).collect();
     let options = naga::front::spv::Options { adjust_coordinate_space: false, ..Default::default() };
     let module = naga::front::spv::parse_u8_slice(&bytes, &options).map_err(|error| {
         at(format!(

@@ -19,6 +19,8 @@ mod layout;
 #[allow(dead_code)]
 #[path = "../build/permutation.rs"]
 mod permutation;
+#[path = "../build/spirv.rs"]
+mod spirv;
 
 use interface::{Binding, BindingKind, Field, FieldType, Interface, Slot, Struct};
 use permutation::Permutation;
@@ -87,12 +89,19 @@ fn bad_includes_name_their_line() {
         ("pass/up.frag", "#version 460\n#include \"../pass/none.frag\"\n"),
         ("pass/cycle.frag", "#version 460\n#include \"c.glsl\"\n"),
         ("host/c.glsl", "\n#include \"c.glsl\"\n"),
+        ("pass/both.frag", "#version 460\n#include \"d.glsl\"\n"),
+        ("host/d.glsl", ""),
+        ("lib/d.glsl", ""),
         ("pass/bare.frag", "void main() {}\n"),
     ]);
     let error = |file: &str| relative(&include::expand(&one(file), root.path()).unwrap_err(), root.path());
     assert_eq!(
         error("none.frag"),
         "pass/none.frag:3: `none.glsl` is in neither shaders_glsl/lib nor shaders_glsl/host"
+    );
+    assert_eq!(
+        error("both.frag"),
+        "pass/both.frag:2: `d.glsl` is in both shaders_glsl/lib and shaders_glsl/host: rename one"
     );
     assert_eq!(error("up.frag"), "pass/up.frag:2: write #include \"file.glsl\"");
     assert_eq!(error("cycle.frag"), "host/c.glsl:2: `c.glsl` includes itself");
@@ -114,9 +123,34 @@ fn a_shader_error_names_the_file_and_line_of_the_glsl() {
         let spirv = compiler.compile(&one(line), root.path(), root.path());
         spirv.map(|words| words[0]).map_err(|error| relative(&error, root.path()))
     };
-    assert_eq!(compile("a.frag"), Err("pass/a.frag:4: 'missing' : undeclared identifier (a.frag)".to_owned()));
-    assert_eq!(compile("c.frag UV"), Err("lib/d.glsl:2: 'e' : undeclared identifier (c.frag+UV)".to_owned()));
+    assert_eq!(compile("a.frag"), Err("pass/a.frag:4: 'missing' : undeclared identifier".to_owned()));
+    assert_eq!(compile("c.frag UV"), Err("lib/d.glsl:2: 'e' : undeclared identifier".to_owned()));
     assert_eq!(compile("c.frag"), Ok(0x0723_0203));
+}
+
+/// naga reads neither; the shader that the device gets keeps both.
+#[cfg(not(feature = "bundled-glslang"))]
+#[test]
+fn reflection_does_without_constant_operations_and_sample_masks() {
+    let text = "#version 460\nlayout(constant_id = 2) const int LAYERS = 3;\nlayout(location = 0) out vec4 color;\n\
+                void main() {\n    color = vec4(LAYERS > 1 ? 1.0 : 0.0);\n    gl_SampleMask[0] = gl_SampleMaskIn[0];\n}\n";
+    let root = tree(&[("pass/a.frag", text)]);
+    let compiler = compile::Compiler::find().unwrap();
+    let words = compiler.compile(&one("a.frag"), root.path(), root.path()).unwrap();
+    let simple = spirv::for_reflection(&words);
+    assert_eq!(simple[..5], words[..5]);
+    let count = |words: &[u32], is_wanted: fn(&[u32]) -> bool| {
+        spirv::instructions(words).filter(|instruction| is_wanted(instruction)).count()
+    };
+    let is_constant_operation = |words: &[u32]| words[0] & 0xffff == 52;
+    assert!(count(&words, is_constant_operation) > 0);
+    assert_eq!(count(&simple, is_constant_operation), 0);
+    // Storage classes: 1 input, 3 output, 6 private.
+    let variables = |words: &[u32], class: u32| {
+        spirv::instructions(words).filter(|words| words[0] & 0xffff == 59 && words[3] == class).count()
+    };
+    assert_eq!([1, 3, 6].map(|class| variables(&words, class)), [1, 2, 0]);
+    assert_eq!([1, 3, 6].map(|class| variables(&simple, class)), [0, 1, 2]);
 }
 
 fn interface() -> Interface {
