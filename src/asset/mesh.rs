@@ -112,7 +112,6 @@ impl Meshes<'_> {
     }
 
     /// The material, and the (variant, material) pairs.
-    #[allow(clippy::type_complexity)]
     fn materials_of(
         &self,
         field: &str,

@@ -173,8 +173,6 @@ pub(super) fn read_scenes(context: &Context, document: &Document) -> Result<(Vec
             }
             if known.insert(root) {
                 roots.push(root);
-            } else if root == node {
-                context.warn(field, "is listed twice; it is shown once");
             }
         }
         scenes.push(AssetScene { name: json.name.clone(), roots });
