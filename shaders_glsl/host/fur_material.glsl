@@ -31,4 +31,5 @@ struct FurUniforms {
     TextureTransform base_color_transform;
     TextureTransform height_transform;
     TextureTransform spot_transform;
+    TextureTransform comb_transform;
 };

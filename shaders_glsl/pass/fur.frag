@@ -101,7 +101,7 @@ void main() {
     vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
     vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
 
-    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + fur.taper * height * height;
+    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
     float own_random = 0.5;
     float opacity;
 #ifdef MAPS
@@ -131,8 +131,8 @@ void main() {
                                  strand_mean_coverage(threshold, fur.strand_radius));
         own_random = field.random;
     }
-    // 1 - k^2 times a mix with the cosine: in [0, 1] by construction.
-    opacity *= mix(1.0, 1.0 - height * height, fur.tip_fade) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
+    // Each factor lies in [0, 1], so their product does.
+    opacity *= (1.0 - fur.tip_fade * height) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 
     uint samples = SAMPLE_COUNT;
     int mask = -1;

@@ -14,6 +14,7 @@ layout(constant_id = 1) const bool LINEAR_BEND = false;    // 1: classic displac
 layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
 layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
 layout(constant_id = 4) const bool FORCE_IN_OBJECT = false;
+layout(constant_id = 13) const bool HAS_COMB_MAP = false;
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
@@ -22,6 +23,8 @@ layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
 #ifdef MAPS
 layout(set = 1, binding = 1) uniform texture2D height_map;
 layout(set = 1, binding = 2) uniform sampler height_sampler;
+layout(set = 1, binding = 9) uniform texture2D comb_map;
+layout(set = 1, binding = 10) uniform sampler comb_sampler;
 #endif
 
 layout(location = 0) in vec3 position;
@@ -83,7 +86,14 @@ void main() {
     if (FORCE_IN_OBJECT) { force = unit_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
     // The comb lays strands over in the tangent plane; its axes come from the world's up direction.
     vec3 side = unit_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
-    vec3 total = force + fur.comb.x * side + fur.comb.y * cross(direction, side);
+    vec2 comb = fur.comb;
+#ifdef MAPS
+    if (HAS_COMB_MAP) {
+        vec2 uv = uv_transformed(fur.comb_transform, uv_sets.xy, uv_sets.zw);
+        comb += textureLod(sampler2D(comb_map, comb_sampler), uv, 0.0).rg * 2.0 - 1.0;
+    }
+#endif
+    vec3 total = force + comb.x * side + comb.y * cross(direction, side);
     float strength = length(total);
     if (strength > 1.0) { total /= strength; }
 

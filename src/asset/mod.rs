@@ -33,6 +33,7 @@ mod model;
 mod morph;
 mod node;
 mod normal;
+pub mod procedural;
 mod skin;
 mod tangent;
 mod texture;

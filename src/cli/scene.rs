@@ -150,7 +150,7 @@ impl SceneArguments {
         if self.orbit.is_none() && self.target.is_none() && self.fov.is_none() {
             return CameraChoice::Auto;
         }
-        let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::AUTO_THETA_DEG, scene::AUTO_PHI_DEG, None));
-        CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::AUTO_FOV_DEG) }
+        let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
+        CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG) }
     }
 }

@@ -4,7 +4,7 @@ use super::frame_data::FrameData;
 use super::options::{Background, FrameOptions};
 use super::pass::{deform, draws, tonemap};
 use super::pipeline::PipelineSpec;
-use super::plan::{Draw, Pass, Plan};
+use super::plan::{Draw, Pass};
 use super::resources::Resources;
 use super::targets::Targets;
 use super::{RenderError, Shot};

@@ -7,10 +7,11 @@ use super::resources::Resources;
 use super::Shot;
 use super::stream::Stream;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::material::Material;
 use crate::scene::{Camera, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
-use bytemuck::{NoUninit, Zeroable};
+use bytemuck::NoUninit;
 use glam::{Mat3, Mat4};
 use std::collections::HashMap;
 
@@ -34,7 +35,7 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    pub fn new(gpu: &Gpu, resources: &mut Resources, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, resources: &Resources, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Self, GpuError> {
         let Shot { plan, pose, camera, lighting } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
@@ -71,26 +72,17 @@ impl FrameData {
         Ok(())
     }
 
-    fn bind_coat(&mut self, gpu: &Gpu, resources: &mut Resources, scene: &Scene, plan: &Plan, draw: &Draw) -> Result<(), GpuError> {
+    fn bind_coat(&mut self, gpu: &Gpu, resources: &Resources, scene: &Scene, plan: &Plan, draw: &Draw) -> Result<(), GpuError> {
         let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
-        let Some(fur) = &scene.materials[material].fur else { return Ok(()) };
+        let Material { standard, fur: Some(fur), name } = &scene.materials[material] else { return Ok(()) };
         let instance = &plan.instances[draw.instance];
         let size = CoatSize {
             rest_radius: scene.rest_radius(instance.mesh),
             world_radius_m: scene.world_radius_m(instance),
         };
-        let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, size, layers)])?;
-        let mut maps = Vec::new();
-        for (map, reference, srgb) in fur_maps(fur) {
-            maps.push((format!("{map}_map"), format!("{map}_sampler"), resources.map(scene, reference, srgb)?));
-        }
-        let mut offered = vec![("FurBlock", Resource::Buffer(&uniforms))];
-        for (map, sampler, (image, state)) in &maps {
-            offered.push((map, Resource::Texture(image)));
-            offered.push((sampler, Resource::Sampler(state)));
-        }
-        let pipeline = resources.pipeline(&plan.pipelines[draw.pipeline]);
-        let group = gpu.bind_group(pipeline, 1, &scene.materials[material].name, &offered)?;
+        let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, standard, size, layers)])?;
+        let spec = &plan.pipelines[draw.pipeline];
+        let group = resources.bind_material(scene, spec, name, ("FurBlock", &uniforms), &fur_maps(fur, standard))?;
         self.coat_groups.insert((draw.instance, draw.pipeline), group);
         Ok(())
     }
@@ -144,7 +136,7 @@ fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) 
         eye_in_world: camera.eye_in_world().to_array(),
         light_count: lighting.lights.len() as u32,
         view_in_world: camera.backwards_in_world().to_array(),
-        orthographic: if camera.is_orthographic() { 1.0 } else { 0.0 },
+        orthographic: if camera.is_orthographic { 1.0 } else { 0.0 },
         ambient_radiance: lighting.ambient_radiance.to_array(),
         sample_count: options.msaa,
     }
@@ -175,6 +167,6 @@ fn light_source(light: &Light) -> LightSource {
         intensity: light.intensity.to_array(),
         spot_scale,
         spot_offset,
-        ..Zeroable::zeroed()
+        ..Default::default()
     }
 }

@@ -1,9 +1,8 @@
 //! Materials as the shaders read them.
 
-use crate::asset::{AlphaMode, TextureRef};
+use crate::asset::TextureRef;
 use crate::material::{Fur, Length, Standard};
 use crate::shader::layout::{FurUniforms, StandardUniforms, TextureTransform};
-use bytemuck::Zeroable;
 use glam::Vec3;
 
 /// The uniform block of a surface.
@@ -11,10 +10,7 @@ pub fn standard_uniforms(standard: &Standard) -> StandardUniforms {
     StandardUniforms {
         base_color: standard.base_color.to_array(),
         emissive: standard.emissive.to_array(),
-        alpha_cutoff: match standard.alpha_mode {
-            AlphaMode::Mask(cutoff) => cutoff,
-            AlphaMode::Opaque | AlphaMode::Blend => 0.0,
-        },
+        alpha_cutoff: standard.alpha_cutoff,
         metallic: standard.metallic,
         roughness: standard.roughness,
         normal_scale: standard.normal_scale,
@@ -27,21 +23,21 @@ pub fn standard_uniforms(standard: &Standard) -> StandardUniforms {
         emissive_transform: transform(standard.emissive_texture),
         detail_albedo_transform: transform(standard.detail_albedo_texture),
         detail_normal_transform: transform(standard.detail_normal_texture),
-        ..Zeroable::zeroed()
+        ..Default::default()
     }
 }
 
 /// KHR_texture_transform as two rows: translation * rotation * scale.
 fn transform(map: Option<TextureRef>) -> TextureTransform {
     let Some(map) = map else {
-        return TextureTransform { row_u: [1.0, 0.0, 0.0], row_v: [0.0, 1.0, 0.0], ..Zeroable::zeroed() };
+        return TextureTransform { row_u: [1.0, 0.0, 0.0], row_v: [0.0, 1.0, 0.0], ..Default::default() };
     };
     let (sine, cosine) = map.rotation.sin_cos();
     TextureTransform {
         row_u: [cosine * map.scale.x, sine * map.scale.y, map.offset.x],
         uv_set: map.uv_set,
         row_v: [-sine * map.scale.x, cosine * map.scale.y, map.offset.y],
-        ..Zeroable::zeroed()
+        ..Default::default()
     }
 }
 
@@ -55,14 +51,14 @@ pub struct CoatSize {
 }
 
 /// The uniform block of a coat of `layers` shells on a mesh of that size.
-pub fn fur_uniforms(fur: &Fur, size: CoatSize, layers: u32) -> FurUniforms {
+pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: CoatSize, layers: u32) -> FurUniforms {
     let world = |length: Length| match length {
         Length::Metres(metres) => metres,
         Length::Relative(share) => share * size.world_radius_m,
     };
     let rest_per_metre = size.rest_radius / size.world_radius_m.max(f32::MIN_POSITIVE);
     FurUniforms {
-        base_color: fur.base_color.extend(1.0).to_array(),
+        base_color: fur.base_color.unwrap_or(standard.base_color.truncate()).extend(1.0).to_array(),
         root_color: fur.root_color.to_array(),
         tip_color: fur.tip_color.to_array(),
         spot_color: fur.spot_color.to_array(),
@@ -87,9 +83,10 @@ pub fn fur_uniforms(fur: &Fur, size: CoatSize, layers: u32) -> FurUniforms {
         projection_scale: 1.0 / size.rest_radius,
         layers,
         distribution_transform: transform(fur.distribution_map),
-        base_color_transform: transform(fur.base_color_texture),
+        base_color_transform: transform(fur.base_color_texture.or(standard.base_color_texture)),
+        comb_transform: transform(fur.comb_map),
         height_transform: transform(fur.height_map),
         spot_transform: transform(fur.spot_map),
-        ..Zeroable::zeroed()
+        ..Default::default()
     }
 }

@@ -171,7 +171,7 @@ impl Renderer {
     pub fn render_reported(&mut self, scene: &Scene, options: &FrameOptions, keep_radiance: bool) -> Result<(Picture, FrameReport), RenderError> {
         let start = Instant::now();
         let shot = Shot::new(scene, options)?;
-        let target = self.picture_target(options.size)?;
+        let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
         self.record_shot(&mut encoder, scene, &shot, options, &target)?;
         let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
@@ -183,7 +183,7 @@ impl Renderer {
         }
         let picture = Picture {
             size: options.size,
-            rgba: self.gpu.read_image(&target)?,
+            rgba: self.gpu.read_image(self.picture.insert(target))?,
             radiance,
             background: match options.background {
                 Background::Environment => Some(shot.lighting.ambient_radiance),
@@ -222,20 +222,19 @@ impl Renderer {
         frame::record(&self.gpu, encoder, scene, shot, options, &mut self.resources, targets, target)
     }
 
-    fn picture_target(&mut self, size: [u32; 2]) -> Result<Image, RenderError> {
-        if let Some(picture) = self.picture.as_ref().filter(|picture| picture.size() == size) {
-            return Ok(picture.clone());
+    /// The picture's image; put it back into `self.picture` for the next frame.
+    fn take_picture_target(&mut self, size: [u32; 2]) -> Result<Image, RenderError> {
+        if let Some(picture) = self.picture.take().filter(|picture| picture.size() == size) {
+            return Ok(picture);
         }
-        self.picture = None;
-        let picture = self.gpu.image(&ImageDesc {
+        Ok(self.gpu.image(&ImageDesc {
             name: "picture",
             size,
             format: vk::Format::R8G8B8A8_UNORM,
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
-        })?;
-        Ok(self.picture.insert(picture).clone())
+        })?)
     }
 }
 

@@ -2,9 +2,9 @@
 //! asked. Two draws that need the same are equal here.
 
 use super::options::{FrameOptions, HdrFormat, Tonemap};
-use crate::asset::{AlphaMode, Primitive, Topology};
+use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
-use crate::material::{Blend, ForceSpace, Fur, Shape, Standard};
+use crate::material::{AlphaMode, Blend, ForceSpace, Fur, Shape, Standard};
 use crate::shader::{Shader, table};
 use ash::vk;
 
@@ -74,7 +74,7 @@ pub fn shader(name: &str) -> &'static Shader {
 fn alpha_constant(mode: AlphaMode) -> u32 {
     match mode {
         AlphaMode::Opaque => 0,
-        AlphaMode::Mask(_) => 1,
+        AlphaMode::Mask => 1,
         AlphaMode::Blend => 2,
     }
 }
@@ -131,14 +131,15 @@ impl PipelineSpec {
         }
     }
 
-    /// The pipeline of the shells of `fur` on `primitive`.
-    pub fn fur(fur: &Fur, primitive: &Primitive, options: &FrameOptions) -> Self {
+    /// The pipeline of the shells of `fur` over the surface `standard` of `primitive`.
+    pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, options: &FrameOptions) -> Self {
         let blend = fur.blend == Blend::Blend;
         let maps = [
             ("HAS_HEIGHT_MAP", fur.height_map.is_some()),
             ("HAS_DISTRIBUTION_MAP", fur.distribution_map.is_some()),
-            ("HAS_BASE_COLOR_MAP", fur.base_color_texture.is_some()),
+            ("HAS_BASE_COLOR_MAP", fur.base_color_texture.or(standard.base_color_texture).is_some()),
             ("HAS_SPOT_MAP", fur.spot_map.is_some()),
+            ("HAS_COMB_MAP", fur.comb_map.is_some()),
         ];
         let has_maps = maps.iter().any(|(_, has)| *has);
         let color = !primitive.vertices.colors.is_empty();
@@ -194,10 +195,6 @@ impl PipelineSpec {
     /// # Errors
     /// Those of [`Gpu::graphics_pipeline`].
     pub fn create(&self, gpu: &Gpu) -> Result<Pipeline, GpuError> {
-        let over = BlendState {
-            color: (vk::BlendFactor::ONE, vk::BlendFactor::ONE_MINUS_SRC_ALPHA),
-            alpha: (vk::BlendFactor::ONE, vk::BlendFactor::ONE_MINUS_SRC_ALPHA),
-        };
         gpu.graphics_pipeline(&GraphicsDesc {
             name: self.name(),
             vertex: shader(&self.vertex),
@@ -209,9 +206,10 @@ impl PipelineSpec {
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
             },
             samples: self.samples,
+            alpha_to_coverage: false,
             color: &[ColorState {
                 format: self.color_format,
-                blend: self.blend.then_some(over),
+                blend: self.blend.then_some(BlendState::PREMULTIPLIED_OVER),
                 write_mask: vk::ColorComponentFlags::RGBA,
             }],
             depth: (self.depth != DepthUse::None).then_some(DepthState {

@@ -7,8 +7,8 @@
 use super::options::FrameOptions;
 use super::pipeline::{ComputeSpec, PipelineSpec, shader};
 use super::stream::{Stream, inputs};
-use crate::asset::{Primitive, TextureRef, Topology};
-use crate::material::{Blend, Fur, Standard};
+use crate::asset::{Asset, Primitive, TextureRef, Topology};
+use crate::material::{Fur, Standard};
 use crate::scene::{Instance, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -154,8 +154,8 @@ impl Plan {
 
         if let Some(fur) = fur {
             let layers = options.layers.unwrap_or(fur.layers);
-            self.add_draw(scene, index, PipelineSpec::fur(fur, geometry, options), DrawKind::Fur { material, layers });
-            self.add_textures(scene, &fur_maps(fur));
+            self.add_draw(scene, index, PipelineSpec::fur(fur, &scene.materials[material].standard, geometry, options), DrawKind::Fur { material, layers });
+            self.add_textures(scene, &fur_maps(fur, &scene.materials[material].standard));
         }
     }
 
@@ -182,12 +182,26 @@ impl Plan {
         list.push(Draw { instance: index, pipeline: index_of(&mut self.pipelines, spec), kind });
     }
 
-    fn add_textures(&mut self, scene: &Scene, maps: &[(&'static str, Option<TextureRef>, bool)]) {
-        for (_, map, srgb) in maps {
-            if let Some(map) = map {
-                self.textures.insert(TextureUse { image: scene.asset.textures[map.texture].image, srgb: *srgb });
+    fn add_textures(&mut self, scene: &Scene, maps: &[Map]) {
+        for map in maps {
+            if let Some(texture) = map.texture {
+                self.textures.insert(TextureUse { image: scene.asset.textures[texture.texture].image, srgb: map.srgb });
             }
         }
+    }
+
+    /// Bytes of the vertex streams.
+    pub fn stream_bytes(&self, asset: &Asset) -> u64 {
+        let bytes = |(&(mesh, primitive), streams): (&(usize, usize), &BTreeSet<Stream>)| {
+            let vertices = asset.meshes[mesh].primitives[primitive].vertices.positions.len() as u64;
+            streams.iter().map(|stream| vertices * u64::from(stream.stride())).sum::<u64>()
+        };
+        self.streams.iter().map(bytes).sum()
+    }
+
+    /// Bytes of the index lists.
+    pub fn index_bytes(&self, asset: &Asset) -> u64 {
+        self.streams.keys().map(|&(mesh, primitive)| asset.meshes[mesh].primitives[primitive].indices.len() as u64 * 4).sum()
     }
 
     fn add_passes(&mut self) {
@@ -239,26 +253,48 @@ impl Plan {
     }
 }
 
-/// Maps of a surface: GLSL name, reference, whether sRGB-coded.
-pub fn surface_maps(standard: &Standard) -> [(&'static str, Option<TextureRef>, bool); 7] {
+/// A map of a material: its shaders call the texture `<name>_map` and the sampler `<name>_sampler`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Map {
+    /// Stem of the GLSL names.
+    pub name: &'static str,
+    /// What the material says.
+    pub texture: Option<TextureRef>,
+    /// Colour, which is decoded when sampled; everything else is data and never is.
+    pub srgb: bool,
+}
+
+impl Map {
+    fn color(name: &'static str, texture: Option<TextureRef>) -> Self {
+        Self { name, texture, srgb: true }
+    }
+
+    fn data(name: &'static str, texture: Option<TextureRef>) -> Self {
+        Self { name, texture, srgb: false }
+    }
+}
+
+/// Maps of a surface.
+pub fn surface_maps(standard: &Standard) -> [Map; 7] {
     [
-        ("base_color", standard.base_color_texture, true),
-        ("metallic_roughness", standard.metallic_roughness_texture, false),
-        ("occlusion", standard.occlusion_texture, false),
-        ("emissive", standard.emissive_texture, true),
-        ("normal", standard.normal_texture, false),
-        ("detail_albedo", standard.detail_albedo_texture, true),
-        ("detail_normal", standard.detail_normal_texture, false),
+        Map::color("base_color", standard.base_color_texture),
+        Map::data("metallic_roughness", standard.metallic_roughness_texture),
+        Map::data("occlusion", standard.occlusion_texture),
+        Map::color("emissive", standard.emissive_texture),
+        Map::data("normal", standard.normal_texture),
+        Map::color("detail_albedo", standard.detail_albedo_texture),
+        Map::data("detail_normal", standard.detail_normal_texture),
     ]
 }
 
-/// Maps of a coat: GLSL name, reference, whether sRGB-coded.
-pub fn fur_maps(fur: &Fur) -> [(&'static str, Option<TextureRef>, bool); 4] {
+/// Maps of a coat over a surface, whose base colour texture it takes where it has none of its own.
+pub fn fur_maps(fur: &Fur, standard: &Standard) -> [Map; 5] {
     [
-        ("height", fur.height_map, false),
-        ("distribution", fur.distribution_map, false),
-        ("base_color", fur.base_color_texture, true),
-        ("spot", fur.spot_map, false),
+        Map::data("height", fur.height_map),
+        Map::data("distribution", fur.distribution_map),
+        Map::color("base_color", fur.base_color_texture.or(standard.base_color_texture)),
+        Map::data("spot", fur.spot_map),
+        Map::data("comb", fur.comb_map),
     ]
 }
 

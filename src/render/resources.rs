@@ -4,7 +4,7 @@
 use super::geometry::{morph_delta_bytes, stream_bytes};
 use super::material::standard_uniforms;
 use super::pipeline::{ComputeSpec, PipelineSpec};
-use super::plan::{DrawKind, Plan, SurfaceUse, TextureUse, surface_maps};
+use super::plan::{DrawKind, Map, Plan, SurfaceUse, TextureUse, surface_maps};
 use super::stream::Stream;
 use super::texture::mip_levels;
 use crate::asset::{self, TextureRef, Wrap};
@@ -31,7 +31,7 @@ pub struct Resources {
     pub absent: Buffer,
     images: HashMap<TextureUse, Image>,
     /// One white texel, bound where a permutation has a map that the material lacks.
-    white: Option<Image>,
+    white: Image,
     samplers: HashMap<asset::Sampler, Sampler>,
     surfaces: HashMap<(SurfaceUse, PipelineSpec), BindGroup>,
     pipelines: HashMap<PipelineSpec, Pipeline>,
@@ -44,9 +44,12 @@ impl Resources {
     /// # Errors
     /// When the device is out of memory or lost.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let mut upload = gpu.upload()?;
+        let mut upload = gpu.upload();
         let absent = filled_buffer(gpu, &mut upload, "absent stream", vk::BufferUsageFlags::VERTEX_BUFFER, &[0; 16])?;
+        let white = filled_image(gpu, &mut upload, "white", [1, 1], vk::Format::R8G8B8A8_UNORM, &[vec![255; 4]])?;
         upload.finish()?;
+        let plain = asset::Sampler::default();
+        let samplers = HashMap::from([(plain, gpu.sampler(&sampler_desc(&plain))?)]);
         Ok(Self {
             gpu: gpu.clone(),
             streams: HashMap::new(),
@@ -55,8 +58,8 @@ impl Resources {
             morph_deltas: HashMap::new(),
             absent,
             images: HashMap::new(),
-            white: None,
-            samplers: HashMap::new(),
+            white,
+            samplers,
             surfaces: HashMap::new(),
             pipelines: HashMap::new(),
             compute_pipelines: HashMap::new(),
@@ -68,7 +71,7 @@ impl Resources {
     /// # Errors
     /// When the device is out of memory or lost.
     pub fn prepare(&mut self, scene: &Scene, plan: &Plan) -> Result<(), GpuError> {
-        let mut upload = self.gpu.upload()?;
+        let mut upload = self.gpu.upload();
         self.prepare_geometry(&mut upload, scene, plan)?;
         self.prepare_deform_sources(&mut upload, scene, plan)?;
         self.prepare_images(&mut upload, scene, plan)?;
@@ -127,27 +130,26 @@ impl Resources {
         &self.surfaces[&(surface, spec.clone())]
     }
 
-    /// A texture and its sampler for a map, or the white texel.
+    /// The texture and sampler of a map that the plan lists; for no map, the white texel.
+    pub fn map(&self, scene: &Scene, map: Option<TextureRef>, srgb: bool) -> (&Image, &Sampler) {
+        let Some(map) = map else { return (&self.white, &self.samplers[&asset::Sampler::default()]) };
+        let texture = &scene.asset.textures[map.texture];
+        (&self.images[&TextureUse { image: texture.image, srgb }], &self.samplers[&texture.sampler])
+    }
+
+    /// The material bind group (set 1) of a pipeline: its uniform block and what it declares of the maps.
     ///
     /// # Errors
     /// When the device is out of memory.
-    pub fn map(&mut self, scene: &Scene, map: Option<TextureRef>, srgb: bool) -> Result<(Image, Sampler), GpuError> {
-        let settings = map.map_or_else(asset::Sampler::default, |map| scene.asset.textures[map.texture].sampler);
-        if !self.samplers.contains_key(&settings) {
-            self.samplers.insert(settings, self.gpu.sampler(&sampler_desc(&settings))?);
+    pub fn bind_material(&self, scene: &Scene, spec: &PipelineSpec, name: &str, block: (&str, &Buffer), maps: &[Map]) -> Result<BindGroup, GpuError> {
+        let names: Vec<_> = maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
+        let mut offered = vec![(block.0, Resource::Buffer(block.1))];
+        for (map, (texture_name, sampler_name)) in maps.iter().zip(&names) {
+            let (image, sampler) = self.map(scene, map.texture, map.srgb);
+            offered.push((texture_name, Resource::Texture(image)));
+            offered.push((sampler_name, Resource::Sampler(sampler)));
         }
-        let sampler = self.samplers[&settings].clone();
-        let found = map.and_then(|map| self.images.get(&TextureUse { image: scene.asset.textures[map.texture].image, srgb }));
-        let image = match (found, &self.white) {
-            (Some(image), _) | (None, Some(image)) => image.clone(),
-            (None, None) => {
-                let mut upload = self.gpu.upload()?;
-                let white = filled_image(&self.gpu, &mut upload, "white", [1, 1], vk::Format::R8G8B8A8_UNORM, &[vec![255; 4]])?;
-                upload.finish()?;
-                self.white.insert(white).clone()
-            }
-        };
-        Ok((image, sampler))
+        self.gpu.bind_group(self.pipeline(spec), 1, name, &offered)
     }
 
     fn prepare_geometry(&mut self, upload: &mut Upload, scene: &Scene, plan: &Plan) -> Result<(), GpuError> {
@@ -213,6 +215,11 @@ impl Resources {
             let image = filled_image(&self.gpu, upload, &source.name, [width, height], format, &levels)?;
             self.images.insert(texture, image);
         }
+        for texture in &scene.asset.textures {
+            if !self.samplers.contains_key(&texture.sampler) {
+                self.samplers.insert(texture.sampler, self.gpu.sampler(&sampler_desc(&texture.sampler))?);
+            }
+        }
         Ok(())
     }
 
@@ -229,16 +236,7 @@ impl Resources {
             let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
             let bytes = standard_uniforms(&standard);
             let uniforms = filled_buffer(&self.gpu, upload, name, usage, bytemuck::bytes_of(&bytes))?;
-            let mut maps = Vec::new();
-            for (map, reference, srgb) in surface_maps(&standard) {
-                maps.push((format!("{map}_map"), format!("{map}_sampler"), self.map(scene, reference, srgb)?));
-            }
-            let mut resources = vec![("StandardBlock", Resource::Buffer(&uniforms))];
-            for (map, sampler, (image, state)) in &maps {
-                resources.push((map, Resource::Texture(image)));
-                resources.push((sampler, Resource::Sampler(state)));
-            }
-            let group = self.gpu.bind_group(&self.pipelines[spec], 1, name, &resources)?;
+            let group = self.bind_material(scene, spec, name, ("StandardBlock", &uniforms), &surface_maps(&standard))?;
             self.surfaces.insert(key, group);
         }
         Ok(())
@@ -251,7 +249,7 @@ fn filled_buffer(gpu: &Gpu, upload: &mut Upload, name: &str, usage: vk::BufferUs
     let size = bytes.len().max(4) as u64;
     let buffer = gpu.buffer(name, size, usage | vk::BufferUsageFlags::TRANSFER_DST, Memory::Device)?;
     if !bytes.is_empty() {
-        upload.buffer(&buffer, 0, bytes)?;
+        upload.buffer(&buffer, 0, bytes);
     }
     Ok(buffer)
 }
@@ -266,7 +264,7 @@ fn filled_image(gpu: &Gpu, upload: &mut Upload, name: &str, size: [u32; 2], form
         usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
     })?;
     let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
-    upload.image(&image, &levels)?;
+    upload.image(&image, &levels);
     Ok(image)
 }
 
@@ -279,13 +277,13 @@ fn sampler_desc(sampler: &asset::Sampler) -> SamplerDesc {
     };
     SamplerDesc {
         wrap: sampler.wrap.map(mode),
-        mag_filter: filter(sampler.mag_linear),
-        min_filter: filter(sampler.min_linear),
+        mag: filter(sampler.mag_linear),
+        min: filter(sampler.min_linear),
         mip_mode: match sampler.mip_linear {
             Some(true) => vk::SamplerMipmapMode::LINEAR,
             _ => vk::SamplerMipmapMode::NEAREST,
         },
         max_lod: if sampler.mip_linear.is_some() { vk::LOD_CLAMP_NONE } else { 0.0 },
-        anisotropy: 1.0,
+        ..SamplerDesc::default()
     }
 }

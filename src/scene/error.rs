@@ -1,8 +1,14 @@
 //! Errors of this room.
 
-/// A request that the scene cannot meet. Loaded data itself is sound (checked at load), so only choices can fail.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// A scene that cannot be loaded or dressed, or a request that it cannot meet.
+#[derive(Debug, thiserror::Error)]
 pub enum SceneError {
+    /// The file cannot be loaded.
+    #[error(transparent)]
+    Asset(#[from] crate::asset::AssetError),
+    /// A material or look is wrong.
+    #[error(transparent)]
+    Material(#[from] crate::material::MaterialError),
     /// No such animation, scene, camera or variant.
     #[error("no {kind} \"{asked}\": {}", available_in_words(kind, available))]
     Unknown {
@@ -14,7 +20,9 @@ pub enum SceneError {
         available: Vec<String>,
     },
     /// The camera exists but no node of the scene holds it.
-    #[error("camera \"{camera}\" is held by no node of scene {scene}: choose another scene, another camera, or an orbit")]
+    #[error(
+        "camera \"{camera}\" is held by no node of scene {scene}: choose another scene, another camera, or an orbit"
+    )]
     CameraOutsideScene {
         /// Name or index as asked.
         camera: String,

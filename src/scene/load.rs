@@ -36,7 +36,7 @@ impl Scene {
 
     /// The embedded gallery: what the program is for, by formulas alone.
     pub fn gallery() -> Self {
-        Self::from_asset(asset::gallery()).unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+        Self::from_asset(asset::procedural::gallery()).unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
     }
 
     /// Dresses plain data with the materials that it names.
@@ -44,7 +44,7 @@ impl Scene {
     /// # Errors
     /// When a material's `vair` keys are wrong.
     pub fn from_asset(mut asset: Asset) -> Result<Self, SceneError> {
-        let materials = material::from_asset(&mut asset)?;
+        let materials = material::from_asset(&mut asset, &mut |file| Err(format!("{file}: a scene made in memory has no folder; use a procedural texture")))?;
         Ok(Self::new(asset, materials))
     }
 
@@ -98,14 +98,14 @@ impl Scene {
     /// Radius of the sphere around a mesh's positions, in their units, > 0.
     pub fn rest_radius(&self, mesh: usize) -> f32 {
         let positions = self.asset.meshes[mesh].primitives.iter().flat_map(|primitive| &primitive.vertices.positions);
-        let bounds = Aabb::of_points(positions.copied());
+        let bounds = Aabb::around(positions.copied());
         bounds.half_extent().length().max(f32::MIN_POSITIVE)
     }
 
     /// Middle of an instance's positions, object space.
     pub fn middle_in_object(&self, instance: &Instance) -> Vec3 {
         let positions = &self.asset.meshes[instance.mesh].primitives[instance.primitive].vertices.positions;
-        Aabb::of_points(positions.iter().copied()).center()
+        Aabb::around(positions.iter().copied()).center()
     }
 }
 

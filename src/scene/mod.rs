@@ -11,6 +11,7 @@ mod deform;
 mod error;
 mod instance;
 mod light;
+mod load;
 mod shell;
 
 pub use animation::{Pose, pose};
@@ -20,6 +21,7 @@ pub use choice::{find_animation, find_camera, find_scene, find_variant};
 pub use deform::deform;
 pub use error::SceneError;
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
+pub use load::Scene;
 pub use light::{
     AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
     lighting,

@@ -38,7 +38,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan,
         for input in inputs(shader(&spec.vertex)) {
             let moved = data.deformed.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
             match moved.or_else(|| resources.streams.get(&(index, input.stream))) {
-                Some(stream) => pass.vertices(input.location, stream, 0, input.stream.stride()),
+                Some(stream) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
                 None => pass.vertices(input.location, &resources.absent, 0, 0),
             }
         }

@@ -8,7 +8,6 @@ use crate::gpu::{BindGroup, ColorTarget, Encoder, Image, Load, Pipeline, RenderP
 use crate::render::options::{Background, FrameOptions};
 use crate::render::plan::Pass;
 use crate::shader::layout::TonemapDraw;
-use bytemuck::Zeroable;
 use glam::Vec3;
 
 /// Records the pass.
@@ -23,7 +22,7 @@ pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3,
         exposure: options.exposure_ev.exp2(),
         background_opacity: if options.background == Background::Transparent { 0.0 } else { 1.0 },
         background_is_light: if options.background == Background::Environment { 1.0 } else { 0.0 },
-        ..Zeroable::zeroed()
+        ..Default::default()
     };
     let color = [ColorTarget { image: target, load: Load::Discard, store: true, resolve: None }];
     let desc = RenderPassDesc { name: Pass::Tonemap.name(), size: options.size, color: &color, depth: None, sampled: &[hdr] };

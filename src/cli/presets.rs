@@ -1,0 +1,59 @@
+//! `vair presets`.
+
+use super::json;
+use anyhow::Result;
+use clap::Args;
+use serde_json::{Value, json};
+use vair::material::{Family, Fur, Parameter, Standard, presets};
+
+#[derive(Debug, Args)]
+pub struct PresetsArguments {
+    /// Every parameter that a look may set, with unit, range and default.
+    #[arg(long)]
+    parameters: bool,
+    /// Prints one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(arguments: &PresetsArguments) -> Result<()> {
+    if arguments.json {
+        let list: Vec<Value> = presets()
+            .iter()
+            .map(|preset| {
+                let parameters: serde_json::Map<String, Value> =
+                    preset.parameters().map(|(key, value)| (key.to_owned(), value.to_string().into())).collect();
+                json!({ "name": preset.name, "kind": preset.kind(), "help": preset.help, "parameters": parameters })
+            })
+            .collect();
+        let family = |list: &[Parameter]| list.iter().map(parameter).collect::<Vec<_>>();
+        return json::print(&json!({
+            "presets": list,
+            "parameters": { "standard": family(Standard::PARAMETERS), "fur": family(Fur::PARAMETERS) },
+        }));
+    }
+    if arguments.parameters {
+        for (kind, list) in [("standard", Standard::PARAMETERS), ("fur", Fur::PARAMETERS)] {
+            println!("{kind}");
+            for entry in list {
+                println!("  {:<28} {} [{}]: {}", entry.name, entry.kind, (entry.default)(), entry.help);
+            }
+        }
+        return Ok(());
+    }
+    for preset in presets() {
+        println!("{} ({}): {}", preset.name, preset.kind(), preset.help);
+        for (key, value) in preset.parameters() {
+            println!("    {key} = {value}");
+        }
+    }
+    Ok(())
+}
+
+fn parameter(entry: &Parameter) -> Value {
+    let bound = |value: f64| if value.is_finite() { Value::from(value) } else { Value::Null };
+    json!({
+        "name": entry.name, "kind": entry.kind, "choices": entry.choices, "unit": entry.unit,
+        "range": [bound(entry.range.0), bound(entry.range.1)], "default": (entry.default)(), "help": entry.help,
+    })
+}
