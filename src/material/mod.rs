@@ -1,3 +1,66 @@
-//! Materials.
+//! What surfaces are made of: parameters, looks and presets, and double-precision twins of the shading.
+//!
+//! Every family declares its parameters once, through [`parameters!`](crate::parameters); look files, glTF extras and
+//! presets all end in [`Family::set`]. Nothing here knows the GPU.
 
+mod error;
+mod fur;
+pub mod kind;
+mod look;
+mod nearest;
+pub mod parameter;
+mod preset;
+pub mod procedural;
 pub mod reference;
+mod standard;
+mod texture;
+mod value;
+
+pub use error::MaterialError;
+pub use fur::{Blend, ForceSpace, Fur, Shape};
+pub use kind::{Choice, Length, TextureSource};
+pub use look::Look;
+pub use nearest::nearest;
+pub use parameter::{Family, Parameter, ParameterError};
+pub use preset::{Preset, presets};
+pub use standard::{AlphaMode, Standard};
+pub use texture::{ImageName, ReadImage};
+pub use value::Value;
+
+use crate::asset::Asset;
+use texture::Appended;
+
+/// What one surface is made of.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Material {
+    /// Name in the file, or "material N".
+    pub name: String,
+    /// The surface.
+    pub standard: Standard,
+    /// The coat on it, if it has one.
+    pub fur: Option<Fur>,
+}
+
+/// The materials of a file, one per [`Asset::materials`], with the look keys that the file itself carries
+/// (`extensions.VAIR_material`, `extras.vair`). Images that those keys name are appended to the asset.
+///
+/// # Errors
+/// A look key that does not fit; the message names the material and the key.
+pub fn from_asset(asset: &mut Asset, read_image: ReadImage) -> Result<Vec<Material>, MaterialError> {
+    let mut materials = Vec::with_capacity(asset.materials.len());
+    let mut keys = Vec::new();
+    for (index, source) in asset.materials.iter_mut().enumerate() {
+        let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
+        materials.push(Material { name, standard: Standard::from(&*source), fur: None });
+        if let Some(vair) = source.vair.clone() {
+            keys.push((index, vair));
+        }
+    }
+    let mut textures = Appended::new(asset, read_image);
+    for (index, vair) in keys {
+        if let Some(material) = materials.get_mut(index) {
+            look::section_of_file(&material.name, &vair)?.apply(material, &mut textures)?;
+        }
+    }
+    Ok(materials)
+}
