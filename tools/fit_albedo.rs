@@ -6,7 +6,7 @@
 
 use vair::material::reference::albedo::{
     AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis,
-    gauss_legendre, scaled_cosine,
+    gauss_legendre, largest_roughness_power, scaled_cosine,
 };
 use vair::material::reference::ggx::alpha_of_roughness;
 
@@ -172,7 +172,7 @@ fn print(fit: &Fit) {
     let mut coefficients = &fit.fresnel[..];
     for i in (0..=FRESNEL_DEGREE).rev() {
         for j in (0..=FRESNEL_DEGREE - i).rev() {
-            let (now, rest) = coefficients.split_at(FRESNEL_DEGREE - i - j + 1);
+            let (now, rest) = coefficients.split_at(largest_roughness_power(i, j) + 1);
             coefficients = rest;
             let polynomial = match now {
                 [a] => format!("({a:.6})"),

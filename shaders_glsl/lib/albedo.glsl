@@ -4,7 +4,7 @@
 // Sources: Turquin 2019, "Practical multiple scattering compensation for microfacet models"; Kelemen & Szirmay-Kalos
 // 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model". The polynomials are our own: minimax fits made by
 // tools/fit_albedo.rs, which prints the text between the marks. Against quadrature over roughness 0..1, mu 1e-4..1:
-// scale and bias within 0.0025, their sum within 0.8 % and never more than 0.1 % below the truth, as that would gain
+// scale and bias within 0.0035, their sum within 0.8 % and never more than 0.1 % below the truth, as that would gain
 // energy.
 #ifndef VAIR_ALBEDO_GLSL
 #define VAIR_ALBEDO_GLSL
@@ -12,15 +12,15 @@
 // fit: begin
 float ggx_fit_white(float t, float alpha) {
     vec4 a = vec4(1, alpha, alpha * alpha, alpha * alpha * alpha);
-    float e = dot(vec4(0.290342, -2.594598, 2.290154, 2.750479), a);
-    e = e * t + dot(vec4(0.077212, -2.716184, -1.451764, 8.071715), a);
-    e = e * t + dot(vec4(-0.620482, 4.324464, -13.651771, 8.104055), a);
-    e = e * t + dot(vec4(-0.263194, 4.696628, -7.505366, -2.786634), a);
-    e = e * t + dot(vec4(0.341526, -1.743941, 9.267131, -11.014753), a);
-    e = e * t + dot(vec4(0.275498, -2.200253, 7.336417, -5.851229), a);
-    e = e * t + dot(vec4(0.089214, -0.007802, 0.077217, -0.000509), a);
-    e = e * t + dot(vec4(-0.089546, 0.224128, -1.320690, 0.783948), a);
-    e = e * t + dot(vec4(0.902607, 0.029147, -0.948111, 0.395561), a);
+    float e = dot(vec4(0.258558, -2.881536, 3.598019, 2.582419), a);
+    e = e * t + dot(vec4(0.066954, -2.303169, -2.975984, 11.291102), a);
+    e = e * t + dot(vec4(-0.556979, 4.938557, -16.450255, 11.801157), a);
+    e = e * t + dot(vec4(-0.249110, 4.065050, -5.214154, -4.288520), a);
+    e = e * t + dot(vec4(0.302645, -2.146196, 10.869357, -12.222284), a);
+    e = e * t + dot(vec4(0.271185, -1.945187, 6.167630, -4.813019), a);
+    e = e * t + dot(vec4(0.096197, 0.082651, -0.344921, 0.355322), a);
+    e = e * t + dot(vec4(-0.089566, 0.213412, -1.257483, 0.723528), a);
+    e = e * t + dot(vec4(0.902479, 0.027903, -0.943511, 0.392133), a);
     return clamp(e, 0, 1);
 }
 
@@ -29,46 +29,46 @@ float ggx_fit_fresnel_root(float mu, float t, float roughness) {
     float r4 = r.z * r.z;
     float q = 0;
     float row = 0;
-    row = (0.063546);
+    row = (0.695283);
     q = q * mu + row;
-    row = (3.553992);
-    row = row * t + dot(vec2(-3.808783, 0.765872), r.xy);
+    row = (-23.151736);
+    row = row * t + dot(vec2(21.879659, -2.351075), r.xy);
     q = q * mu + row;
-    row = (-7.784471);
-    row = row * t + dot(vec2(-1164102290087.057373, -8.407507), r.xy);
-    row = row * t + dot(vec3(1164102290095.031006, 10.732907, -5.966021), r.xyz);
+    row = (14.473044);
+    row = row * t + dot(vec2(-119.045003, 15.796003), r.xy);
+    row = row * t + dot(vec3(105.131617, -7.215779, -41.703588), r.xyz);
     q = q * mu + row;
-    row = (-1.939510);
-    row = row * t + dot(vec2(271164421112.914368, -8.409279), r.xy);
-    row = row * t + dot(vec3(-158521403014.705566, 844227791250.545776, -814871603071.281494), r.xyz);
-    row = row * t + dot(vec4(-112643018096.256973, -844227791244.918213, -814871603066.740845, 9.390740), r);
+    row = (-1.382776);
+    row = row * t + dot(vec2(38.094449, 9.911753), r.xy);
+    row = row * t + dot(vec2(-152.294184, 36.409146), r.xy);
+    row = row * t + dot(vec4(115.556390, -50.084134, -144.152059, 83.205315), r);
     q = q * mu + row;
-    row = (-0.603935);
-    row = row * t + dot(vec2(-419470678082.688049, -6.067794), r.xy);
-    row = row * t + dot(vec3(-124543809869.187836, -374032198552.383728, 189815094750.058105), r.xyz);
-    row = row * t + dot(vec4(451714789393.904297, 395541537383.700806, -88626741319.001068, 590959453831.341309), r);
-    row = row * t + dot(vec4(92299698557.565796, -21509338824.885544, 436142061460.254883, 590959453883.215698), r) + r4 * (-14.974789);
+    row = (-0.505577);
+    row = row * t + dot(vec2(2.809799, -5.443983), r.xy);
+    row = row * t + dot(vec2(-5.615784, 21.540838), r.xy);
+    row = row * t + dot(vec2(3.734180, -21.419273), r.xy);
+    row = row * t + dot(vec4(-1.432840, 5.688540, -106.361340, 98.291582), r) + r4 * (-34.188032);
     q = q * mu + row;
-    row = (-0.005260);
-    row = row * t + dot(vec2(0.008552, -0.159609), r.xy);
-    row = row * t + dot(vec3(0.003272, 0.081582, -293629474659.936218), r.xyz);
-    row = row * t + dot(vec4(-0.005985, 0.111687, -674439616224.540283, -261822539000.129730), r);
-    row = row * t + dot(vec4(-0.001274, 0.052686, -445419930555.846741, -246766001820.955811), r) + r4 * (-250104364159.361084);
-    row = row * t + dot(vec4(1.001577, -0.094549, -64609788992.910591, 15056537182.307039), r) + r4 * (-250104364161.662933 + (0.652382) * r.y);
+    row = (-0.002441);
+    row = row * t + dot(vec2(0.007338, -0.146336), r.xy);
+    row = row * t + dot(vec2(0.000932, 0.068598), r.xy);
+    row = row * t + dot(vec2(-0.005382, 0.104727), r.xy);
+    row = row * t + dot(vec2(-0.000914, 0.053278), r.xy);
+    row = row * t + dot(vec4(1.001383, -0.083347, -1.881845, 3.756912), r) + r4 * (-3.063555 + (0.976648) * r.y);
     q = q * mu + row;
     return clamp(q, 0, 1);
 }
 
 vec3 ggx_fit_averages(float r) {
-    vec3 e = vec3(2.867406, 6.126361, 0.844303);
-    e = e * r + vec3(-13.546336, -25.968773, -5.131885);
-    e = e * r + vec3(26.821402, 43.333681, 12.610810);
-    e = e * r + vec3(-28.602839, -36.583464, -16.242404);
-    e = e * r + vec3(17.328914, 18.128400, 11.606685);
-    e = e * r + vec3(-5.570635, -6.536655, -4.307458);
-    e = e * r + vec3(0.700879, 0.970451, 0.620242);
-    e = e * r + vec3(-0.044219, -0.061301, -0.042215);
-    e = e * r + vec3(0.049028, 1.001247, 0.049023);
+    vec3 e = vec3(2.250733, 6.767213, 1.354829);
+    e = e * r + vec3(-10.717233, -30.103130, -6.605183);
+    e = e * r + vec3(21.201948, 53.013014, 13.806401);
+    e = e * r + vec3(-22.320080, -47.721997, -15.710002);
+    e = e * r + vec3(13.125257, 25.025307, 10.159562);
+    e = e * r + vec3(-3.944161, -8.842134, -3.423791);
+    e = e * r + vec3(0.378752, 1.358827, 0.403399);
+    e = e * r + vec3(-0.019069, -0.088925, -0.023898);
+    e = e * r + vec3(0.048442, 1.001863, 0.048577);
     return e;
 }
 // fit: end
