@@ -325,7 +325,8 @@ fn diffuse_is_reciprocal_and_light_is_linear() {
 
 #[test]
 fn tone_maps_are_monotone_bounded_and_finite() {
-    let curves: [(&str, fn(DVec3) -> DVec3); 4] =
+    type Curve = fn(DVec3) -> DVec3;
+    let curves: [(&str, Curve); 4] =
         [("none", tonemap::none), ("aces", tonemap::aces), ("agx", tonemap::agx), ("neutral", tonemap::neutral)];
     let mut next = random();
     for (name, curve) in curves {

@@ -24,7 +24,7 @@ fn main() {
 
     let rows = samples.iter().map(|s| white_basis(s.mu, s.roughness)).collect();
     let targets = samples.iter().map(|s| s.scale + s.bias).collect::<Vec<_>>();
-    let limits = targets.iter().map(|&e| (0.0007 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
+    let limits = targets.iter().map(|&e| (0.0005 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
     for (index, c) in minimax(rows, &targets, &limits).into_iter().enumerate() {
         fit.white[index / 4][index % 4] = c;
     }
