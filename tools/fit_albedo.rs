@@ -5,8 +5,8 @@
 //! below the truth the surface would gain energy, so that side is held ten times closer than the other.
 
 use vair::material::reference::albedo::{
-    AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis, gauss_legendre,
-    scaled_cosine,
+    AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis,
+    gauss_legendre, largest_roughness_power, scaled_cosine,
 };
 use vair::material::reference::ggx::alpha_of_roughness;
 
@@ -24,15 +24,15 @@ fn main() {
 
     let rows = samples.iter().map(|s| white_basis(s.mu, s.roughness)).collect();
     let targets = samples.iter().map(|s| s.scale + s.bias).collect::<Vec<_>>();
-    let limits = targets.iter().map(|&e| (0.0007 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
+    let limits = targets.iter().map(|&e| (0.0005 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
     for (index, c) in minimax(rows, &targets, &limits).into_iter().enumerate() {
         fit.white[index / 4][index % 4] = c;
     }
 
     // The Fresnel share corrects for what the white fit misses: its target is the bias itself.
-    let rows = samples.iter().map(|s| {
-        fresnel_basis(s.mu, scaled_cosine(s.mu, alpha_of_roughness(s.roughness)), s.roughness).to_vec()
-    });
+    let rows = samples
+        .iter()
+        .map(|s| fresnel_basis(s.mu, scaled_cosine(s.mu, alpha_of_roughness(s.roughness)), s.roughness).to_vec());
     let (mut targets, mut limits) = (Vec::new(), Vec::new());
     for s in &samples {
         let (white, _) = fit.terms(s.mu, s.roughness);
@@ -46,15 +46,21 @@ fn main() {
 
     // Averages are those of the fit, not of the truth, so that the diffuse coupling integrates to one.
     let rule = gauss_legendre(64);
-    let knots = (0..=60).map(|i| fitted_roughness(0.0) + (1.0 - fitted_roughness(0.0)) * i as f64 / 60.0).collect::<Vec<_>>();
+    let knots =
+        (0..=60).map(|i| fitted_roughness(0.0) + (1.0 - fitted_roughness(0.0)) * i as f64 / 60.0).collect::<Vec<_>>();
     for part in 0..3 {
         let rows = knots.iter().map(|&r| (0..AVERAGE_TERMS as i32).map(|i| r.powi(i)).collect()).collect();
-        let targets = knots.iter().map(|&r| {
-            rule.iter().map(|&(mu, weight)| {
-                let (white, fresnel) = fit.terms(mu, r);
-                2.0 * mu * weight * [white * fresnel, white, fresnel][part]
-            }).sum()
-        }).collect::<Vec<f64>>();
+        let targets = knots
+            .iter()
+            .map(|&r| {
+                rule.iter()
+                    .map(|&(mu, weight)| {
+                        let (white, fresnel) = fit.terms(mu, r);
+                        2.0 * mu * weight * [white * fresnel, white, fresnel][part]
+                    })
+                    .sum()
+            })
+            .collect::<Vec<f64>>();
         for (index, c) in minimax(rows, &targets, &vec![(1.0, 1.0); knots.len()]).into_iter().enumerate() {
             fit.averages[index][part] = c;
         }
@@ -166,7 +172,7 @@ fn print(fit: &Fit) {
     let mut coefficients = &fit.fresnel[..];
     for i in (0..=FRESNEL_DEGREE).rev() {
         for j in (0..=FRESNEL_DEGREE - i).rev() {
-            let (now, rest) = coefficients.split_at(FRESNEL_DEGREE - i - j + 1);
+            let (now, rest) = coefficients.split_at(largest_roughness_power(i, j) + 1);
             coefficients = rest;
             let polynomial = match now {
                 [a] => format!("({a:.6})"),

@@ -4,7 +4,7 @@
 // Sources: Turquin 2019, "Practical multiple scattering compensation for microfacet models"; Kelemen & Szirmay-Kalos
 // 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model". The polynomials are our own: minimax fits made by
 // tools/fit_albedo.rs, which prints the text between the marks. Against quadrature over roughness 0..1, mu 1e-4..1:
-// scale and bias within 0.0025, their sum within 0.8 % and never more than 0.1 % below the truth, as that would gain
+// scale and bias within 0.0035, their sum within 0.8 % and never more than 0.1 % below the truth, as that would gain
 // energy.
 #ifndef VAIR_ALBEDO_GLSL
 #define VAIR_ALBEDO_GLSL
@@ -12,15 +12,15 @@
 // fit: begin
 float ggx_fit_white(float t, float alpha) {
     vec4 a = vec4(1, alpha, alpha * alpha, alpha * alpha * alpha);
-    float e = dot(vec4(0.290342, -2.594598, 2.290154, 2.750479), a);
-    e = e * t + dot(vec4(0.077212, -2.716184, -1.451764, 8.071715), a);
-    e = e * t + dot(vec4(-0.620482, 4.324464, -13.651771, 8.104055), a);
-    e = e * t + dot(vec4(-0.263194, 4.696628, -7.505366, -2.786634), a);
-    e = e * t + dot(vec4(0.341526, -1.743941, 9.267131, -11.014753), a);
-    e = e * t + dot(vec4(0.275498, -2.200253, 7.336417, -5.851229), a);
-    e = e * t + dot(vec4(0.089214, -0.007802, 0.077217, -0.000509), a);
-    e = e * t + dot(vec4(-0.089546, 0.224128, -1.320690, 0.783948), a);
-    e = e * t + dot(vec4(0.902607, 0.029147, -0.948111, 0.395561), a);
+    float e = dot(vec4(0.287233, -2.551583, 0.709582, 4.108242), a);
+    e = e * t + dot(vec4(0.093594, -2.738116, -2.969845, 9.253735), a);
+    e = e * t + dot(vec4(-0.622450, 4.410277, -11.957410, 6.419553), a);
+    e = e * t + dot(vec4(-0.294469, 4.836438, -5.953746, -3.894424), a);
+    e = e * t + dot(vec4(0.351044, -1.928884, 8.953406, -10.180817), a);
+    e = e * t + dot(vec4(0.293378, -2.328059, 7.013819, -5.395899), a);
+    e = e * t + dot(vec4(0.083809, 0.076203, -0.068002, 0.043341), a);
+    e = e * t + dot(vec4(-0.092234, 0.250815, -1.357835, 0.796592), a);
+    e = e * t + dot(vec4(0.903279, 0.022874, -0.935792, 0.389064), a);
     return clamp(e, 0, 1);
 }
 
@@ -29,46 +29,46 @@ float ggx_fit_fresnel_root(float mu, float t, float roughness) {
     float r4 = r.z * r.z;
     float q = 0;
     float row = 0;
-    row = (0.063546);
+    row = (1.089409);
     q = q * mu + row;
-    row = (3.553992);
-    row = row * t + dot(vec2(-3.808783, 0.765872), r.xy);
+    row = (-25.713389);
+    row = row * t + dot(vec2(23.573015, 0.414919), r.xy);
     q = q * mu + row;
-    row = (-7.784471);
-    row = row * t + dot(vec2(-1164102290087.057373, -8.407507), r.xy);
-    row = row * t + dot(vec3(1164102290095.031006, 10.732907, -5.966021), r.xyz);
+    row = (6.096349);
+    row = row * t + dot(vec2(-93.553053, 2.034242), r.xy);
+    row = row * t + dot(vec3(88.625217, 3.333454, -55.901549), r.xyz);
     q = q * mu + row;
-    row = (-1.939510);
-    row = row * t + dot(vec2(271164421112.914368, -8.409279), r.xy);
-    row = row * t + dot(vec3(-158521403014.705566, 844227791250.545776, -814871603071.281494), r.xyz);
-    row = row * t + dot(vec4(-112643018096.256973, -844227791244.918213, -814871603066.740845, 9.390740), r);
+    row = (-1.770685);
+    row = row * t + dot(vec2(56.574572, 2.651199), r.xy);
+    row = row * t + dot(vec2(-197.288294, 78.438506), r.xy);
+    row = row * t + dot(vec4(142.296127, -83.834733, -123.364889, 88.488368), r);
     q = q * mu + row;
-    row = (-0.603935);
-    row = row * t + dot(vec2(-419470678082.688049, -6.067794), r.xy);
-    row = row * t + dot(vec3(-124543809869.187836, -374032198552.383728, 189815094750.058105), r.xyz);
-    row = row * t + dot(vec4(451714789393.904297, 395541537383.700806, -88626741319.001068, 590959453831.341309), r);
-    row = row * t + dot(vec4(92299698557.565796, -21509338824.885544, 436142061460.254883, 590959453883.215698), r) + r4 * (-14.974789);
+    row = (-0.554991);
+    row = row * t + dot(vec2(2.761230, -7.201235), r.xy);
+    row = row * t + dot(vec2(-5.430829, 24.826340), r.xy);
+    row = row * t + dot(vec2(3.232262, -21.047374), r.xy);
+    row = row * t + dot(vec4(-1.002491, 3.648313, -119.456401, 114.955344), r) + r4 * (-41.175472);
     q = q * mu + row;
-    row = (-0.005260);
-    row = row * t + dot(vec2(0.008552, -0.159609), r.xy);
-    row = row * t + dot(vec3(0.003272, 0.081582, -293629474659.936218), r.xyz);
-    row = row * t + dot(vec4(-0.005985, 0.111687, -674439616224.540283, -261822539000.129730), r);
-    row = row * t + dot(vec4(-0.001274, 0.052686, -445419930555.846741, -246766001820.955811), r) + r4 * (-250104364159.361084);
-    row = row * t + dot(vec4(1.001577, -0.094549, -64609788992.910591, 15056537182.307039), r) + r4 * (-250104364161.662933 + (0.652382) * r.y);
+    row = (-0.000535);
+    row = row * t + dot(vec2(0.004329, -0.101427), r.xy);
+    row = row * t + dot(vec2(-0.000496, 0.055785), r.xy);
+    row = row * t + dot(vec2(-0.003275, 0.070031), r.xy);
+    row = row * t + dot(vec2(-0.000323, 0.038176), r.xy);
+    row = row * t + dot(vec4(1.001252, -0.085464, -2.085277, 4.252159), r) + r4 * (-3.601074 + (1.189528) * r.y);
     q = q * mu + row;
     return clamp(q, 0, 1);
 }
 
 vec3 ggx_fit_averages(float r) {
-    vec3 e = vec3(2.867406, 6.126361, 0.844303);
-    e = e * r + vec3(-13.546336, -25.968773, -5.131885);
-    e = e * r + vec3(26.821402, 43.333681, 12.610810);
-    e = e * r + vec3(-28.602839, -36.583464, -16.242404);
-    e = e * r + vec3(17.328914, 18.128400, 11.606685);
-    e = e * r + vec3(-5.570635, -6.536655, -4.307458);
-    e = e * r + vec3(0.700879, 0.970451, 0.620242);
-    e = e * r + vec3(-0.044219, -0.061301, -0.042215);
-    e = e * r + vec3(0.049028, 1.001247, 0.049023);
+    vec3 e = vec3(3.364856, 5.578325, 2.014068);
+    e = e * r + vec3(-15.651216, -24.482990, -9.755738);
+    e = e * r + vec3(30.141655, 42.199890, 19.868799);
+    e = e * r + vec3(-30.805612, -36.866305, -21.735968);
+    e = e * r + vec3(17.589826, 18.966109, 13.429080);
+    e = e * r + vec3(-5.198344, -6.988919, -4.348308);
+    e = e * r + vec3(0.539870, 1.071884, 0.515891);
+    e = e * r + vec3(-0.024873, -0.069589, -0.026399);
+    e = e * r + vec3(0.048477, 1.001445, 0.048539);
     return e;
 }
 // fit: end

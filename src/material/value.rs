@@ -65,3 +65,17 @@ impl From<&DeValue<'_>> for Value {
         }
     }
 }
+
+/// As a look file writes it.
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let joined = |items: Vec<String>| items.join(", ");
+        match self {
+            Self::List(items) => write!(f, "[{}]", joined(items.iter().map(Self::to_string).collect())),
+            Self::Table(entries) => {
+                write!(f, "{{ {} }}", joined(entries.iter().map(|(key, value)| format!("{key} = {value}")).collect()))
+            }
+            Self::Other(_) | Self::Switch(_) | Self::Number(_) | Self::Text(_) => f.write_str(&self.kind()),
+        }
+    }
+}

@@ -36,15 +36,17 @@ pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
 /// `(scale, bias)` with `E(F0) = F0 scale + bias` (Schlick, F90 = 1). `mu` = cosine of the view angle in (0, 1].
 ///
 /// Integrates over the visible normals (Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
-/// where the integrand is smooth; `rule` comes from [`gauss_legendre`], 96 points give 1e-5.
+/// where the integrand is smooth; `rule` comes from [`gauss_legendre`], 96 points give 1e-4.
 pub fn directional_albedo(mu: f64, alpha: f64, rule: &[(f64, f64)]) -> (f64, f64) {
     let view = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
     let stretched = DVec3::new(alpha * view.x, 0.0, view.z).normalize();
     let lambda = |cosine: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 / (cosine * cosine) - 1.0)).max(1.0).sqrt() - 1.0);
     let lambda_view = lambda(mu);
     let (mut scale, mut bias) = (0.0, 0.0);
-    for &(u, weight_u) in rule {
-        let z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
+    for &(s, weight_s) in rule {
+        // The share of the cap, as a cube: grazing normals, where the lobe turns within alpha, get most points.
+        let (rest, weight_u) = (s * s * s, 3.0 * s * s * weight_s);
+        let z = rest * (1.0 + stretched.z) - stretched.z;
         let radius = (1.0 - z * z).max(0.0).sqrt();
         for &(p, weight_p) in rule {
             let (sin, cos) = (p * PI).sin_cos();
@@ -70,7 +72,7 @@ pub const WHITE_ROWS: usize = 9;
 /// Total degree of the Fresnel polynomial in (mu, t, roughness).
 pub const FRESNEL_DEGREE: usize = 5;
 /// Coefficients of the Fresnel polynomial.
-pub const FRESNEL_TERMS: usize = 56;
+pub const FRESNEL_TERMS: usize = 46;
 /// Powers 0.. of roughness in the average polynomials.
 pub const AVERAGE_TERMS: usize = 9;
 /// Share of alpha in the variable `t = (mu - k alpha) / (mu + k alpha)`, which follows the lobe's own scale.
@@ -100,6 +102,15 @@ pub fn scaled_cosine(mu: f64, alpha: f64) -> f64 {
     (mu - ALPHA_SHARE * alpha) / (mu + ALPHA_SHARE * alpha)
 }
 
+/// Largest power of roughness beside `mu^i t^j`.
+///
+/// The definition of t is itself a polynomial identity, `t mu + k t r^2 = mu - k r^2`, so monomials with `t r^2` are
+/// combinations of the others: with them the fit would have no unique coefficients.
+pub fn largest_roughness_power(i: usize, j: usize) -> usize {
+    let left = FRESNEL_DEGREE.saturating_sub(i + j);
+    if j == 0 { left } else { left.min(1) }
+}
+
 /// Monomials of the Fresnel polynomial, in the order of the file: powers of mu from high to low, in it powers of t
 /// from high to low, in it powers of roughness from low to high.
 pub fn fresnel_basis(mu: f64, t: f64, roughness: f64) -> [f64; FRESNEL_TERMS] {
@@ -107,7 +118,7 @@ pub fn fresnel_basis(mu: f64, t: f64, roughness: f64) -> [f64; FRESNEL_TERMS] {
     let mut next = terms.iter_mut();
     for i in (0..=FRESNEL_DEGREE as i32).rev() {
         for j in (0..=FRESNEL_DEGREE as i32 - i).rev() {
-            for k in 0..=FRESNEL_DEGREE as i32 - i - j {
+            for k in 0..=largest_roughness_power(i as usize, j as usize) as i32 {
                 if let Some(term) = next.next() {
                     *term = mu.powi(i) * t.powi(j) * roughness.powi(k);
                 }
@@ -221,9 +232,11 @@ mod tests {
     #[test]
     fn quadrature_has_converged() {
         let (coarse, fine) = (gauss_legendre(96), gauss_legendre(200));
-        for (mu, alpha) in [(1e-3, 1e-3), (1e-3, 0.3), (0.05, 1.0), (0.3, 0.1), (1.0, 1.0)] {
+        for (mu, alpha) in
+            [(1e-3, 1e-3), (1e-3, 0.3), (0.05, 1.0), (0.3, 0.1), (0.7, 0.1), (0.7, 0.03), (1.0, 0.01), (1.0, 1.0)]
+        {
             let (a, b) = (directional_albedo(mu, alpha, &coarse), directional_albedo(mu, alpha, &fine));
-            assert!((a.0 - b.0).abs() < 2e-5 && (a.1 - b.1).abs() < 2e-5, "{mu} {alpha}: {a:?} {b:?}");
+            assert!((a.0 - b.0).abs() < 1e-4 && (a.1 - b.1).abs() < 1e-4, "{mu} {alpha}: {a:?} {b:?}");
         }
     }
 }
