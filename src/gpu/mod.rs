@@ -1,1 +1,58 @@
-//! gpu.
+//! A thin, safe layer over Vulkan 1.3: the only unsafe code of the crate.
+//!
+//! One file per Vulkan noun. Choices that hold everywhere:
+//!
+//! - **Ownership.** Handles are RAII and not `Clone`. An [`Encoder`] keeps alive whatever it records; its submission
+//!   keeps it until the timeline semaphore has passed, so a `Drop` never blocks and never frees what the device reads.
+//! - **Interface.** Pipelines are built from the reflected [`Shader`](crate::shader::Shader)s; bind groups take
+//!   resources by the names that the shaders use.
+//! - **Synchronization.** One queue. An image knows its last use; buffers are covered by one global memory barrier at
+//!   each pass start. All masks are pure functions (`barrier.rs`).
+//! - **Errors.** Descriptors are checked when built. Recording does not fail: a draw that would be invalid (a set not
+//!   bound, a format that differs) is left out and [`Encoder::submit`] returns the first such error.
+//! - **Picture space.** Clip space is Y up (the viewport is flipped), depth 0 to 1.
+//! - **Robustness.** `robustBufferAccess` is always on: an index out of a buffer reads zero or a value of that buffer.
+
+mod barrier;
+mod buffer;
+mod cache;
+mod choose;
+mod descriptor;
+mod device;
+mod encoder;
+mod error;
+mod features;
+mod format;
+mod host;
+mod image;
+mod instance;
+mod interface;
+mod layout;
+mod memory;
+mod pass;
+mod pipeline;
+mod query;
+mod readback;
+mod retire;
+mod sampler;
+mod upload;
+
+pub use ash;
+pub use ash::vk;
+pub use barrier::ImageUse;
+pub use buffer::Buffer;
+pub use choose::{DeviceInfo, DeviceKind, DeviceReport, devices};
+pub use descriptor::{BindGroup, Resource};
+pub use device::{Gpu, GpuOptions};
+pub use encoder::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc, Submission};
+pub use error::GpuError;
+pub use features::Features;
+pub use format::{format_bytes, level_size};
+pub use host::HostDevice;
+pub use image::{Image, ImageDesc};
+pub use memory::{Memory, MemoryReport};
+pub use pass::{ComputePass, RenderPass};
+pub use pipeline::{BlendState, ColorState, DepthState, GraphicsDesc, Pipeline};
+pub use query::{FrameTimes, PassStatistics, PassTime};
+pub use sampler::{Sampler, SamplerDesc};
+pub use upload::Upload;

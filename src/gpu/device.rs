@@ -1,0 +1,297 @@
+//! The logical device and everything that lives as long as it does.
+
+use super::cache::PipelineCache;
+use super::choose::{self, Candidate, DeviceInfo};
+use super::encoder::Encoder;
+use super::error::GpuError;
+use super::host::HostDevice;
+use super::instance::Instance;
+use super::layout::Layouts;
+use super::memory::{Heap, MemoryReport};
+use super::query::RawRecording;
+use super::retire::RetireQueue;
+use super::sampler::Samplers;
+use ash::vk;
+use std::ffi::CString;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// How to open a device.
+#[derive(Debug, Clone, Default)]
+pub struct GpuOptions {
+    /// Part of the device's name, in any case; `None` takes the best kind.
+    pub device: Option<String>,
+    /// Turns on the validation layer with synchronization validation.
+    pub validate: bool,
+    /// Folder for the pipeline cache; `None` keeps it in memory.
+    pub pipeline_cache_dir: Option<PathBuf>,
+}
+
+/// A device: makes every other object. Cheap to clone; the last clone waits for the device to finish.
+#[derive(Clone)]
+pub struct Gpu(Arc<Owner>);
+
+/// Ends the submissions in flight when the last [`Gpu`] goes. Resources hold only the context, so that a submission,
+/// which holds resources, is not what keeps itself alive.
+struct Owner(Arc<Context>);
+
+impl Drop for Owner {
+    fn drop(&mut self) {
+        if let Err(error) = self.0.wait_idle() {
+            tracing::error!("waiting for the device at its end: {error}");
+        }
+        let in_flight = lock(&self.0.retired).take_passed(u64::MAX);
+        let on_host = lock(&self.0.retired).take_host();
+        drop((in_flight, on_host));
+        self.0.cache.save(&self.0.device);
+    }
+}
+
+/// A logical device, destroyed on drop unless a host owns it.
+pub(crate) struct Device {
+    raw: ash::Device,
+    is_owned: bool,
+}
+
+impl std::ops::Deref for Device {
+    type Target = ash::Device;
+    fn deref(&self) -> &ash::Device {
+        &self.raw
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        if self.is_owned {
+            // SAFETY: created here; all child objects hold the context and so are gone.
+            unsafe { self.raw.destroy_device(None) };
+        }
+    }
+}
+
+/// The queue and the timeline value of the last submission to it.
+pub(crate) struct Queue {
+    pub(crate) raw: vk::Queue,
+    pub(crate) last_submitted: u64,
+}
+
+/// Shared by all objects of a device. Fields drop in order: memory before device before instance.
+pub(crate) struct Context {
+    pub(crate) info: DeviceInfo,
+    pub(crate) family: u32,
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) timeline: vk::Semaphore,
+    pub(crate) queue: Mutex<Queue>,
+    pub(crate) retired: Mutex<RetireQueue>,
+    pub(crate) layouts: Mutex<Layouts>,
+    pub(crate) samplers: Mutex<Samplers>,
+    pub(crate) recordings: Mutex<Vec<RawRecording>>,
+    pub(crate) cache: PipelineCache,
+    pub(crate) debug: Option<ash::ext::debug_utils::Device>,
+    pub(crate) heap: Mutex<Heap>,
+    pub(crate) device: Device,
+    pub(crate) instance: Instance,
+}
+
+/// Nothing here can be left half-changed by a panic, so poisoning is not an error.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Gpu {
+    /// Opens the best usable device.
+    ///
+    /// # Errors
+    /// [`GpuError::NoLoader`], [`GpuError::NoDevice`] with what each device lacks, [`GpuError::MissingLayer`] when
+    /// validation is asked for and absent, or what the driver answers.
+    pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
+        let instance = Instance::new(options.validate)?;
+        let candidate = choose::choose(&instance, options.device.as_deref())?;
+        let priorities = [1.0];
+        let queues =
+            [vk::DeviceQueueCreateInfo::default().queue_family_index(candidate.family).queue_priorities(&priorities)];
+        let mut features = candidate.features.wanted();
+        let mut chain = features.chain();
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut chain);
+        // SAFETY: only supported features and an existing queue family are asked for.
+        let raw = unsafe { instance.create_device(candidate.physical, &info, None) }
+            .map_err(|result| GpuError::from_vk("opening device", &candidate.info.name, result))?;
+        let device = Device { raw, is_owned: true };
+        // SAFETY: the device was created with one queue of this family.
+        let queue = unsafe { device.get_device_queue(candidate.family, 0) };
+        Self::assemble(instance, device, queue, candidate, options.pipeline_cache_dir.as_deref())
+    }
+
+    /// Uses the host's device.
+    ///
+    /// # Safety
+    /// All handles are valid and belong together, as [`HostDevice`] says, and stay so until the last object made from
+    /// this is dropped. While a method of this crate runs, the host does not use the queue. Before the last clone of
+    /// this is dropped, all host command buffers that this crate recorded into have finished.
+    ///
+    /// # Errors
+    /// [`GpuError::NoDevice`] when required features are not among `host.features`, or what the driver answers.
+    pub unsafe fn from_host(host: HostDevice) -> Result<Self, GpuError> {
+        let mut candidate = choose::examine(&host.instance, host.physical_device);
+        candidate.missing = host.features.missing();
+        if !candidate.missing.is_empty() {
+            return Err(GpuError::NoDevice { asked: None, refused: vec![candidate.report()] });
+        }
+        candidate.family = host.queue_family;
+        candidate.features = host.features;
+        candidate.info.set_optional(&host.features);
+        let instance = Instance::from_host(host.entry, host.instance, host.has_debug_utils);
+        let device = Device { raw: host.device, is_owned: false };
+        Self::assemble(instance, device, host.queue, candidate, host.pipeline_cache_dir.as_deref())
+    }
+
+    fn assemble(
+        instance: Instance,
+        device: Device,
+        queue: vk::Queue,
+        candidate: Candidate,
+        cache_dir: Option<&Path>,
+    ) -> Result<Self, GpuError> {
+        let Candidate { physical, family, info, .. } = candidate;
+        let heap = Heap::new(&instance, &device, physical, info.memory_bytes)?;
+        let debug = instance.has_debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+        let semaphore = vk::SemaphoreCreateInfo::default().push_next(&mut kind);
+        // SAFETY: timeline semaphores are a required feature.
+        let timeline = unsafe { device.create_semaphore(&semaphore, None) }
+            .map_err(|result| GpuError::from_vk("creating", "timeline", result))?;
+        let cache = PipelineCache::open(&device, &info, cache_dir);
+        let context = Context {
+            info,
+            family,
+            physical,
+            timeline,
+            queue: Mutex::new(Queue { raw: queue, last_submitted: 0 }),
+            retired: Mutex::default(),
+            layouts: Mutex::default(),
+            samplers: Mutex::default(),
+            recordings: Mutex::default(),
+            cache,
+            debug,
+            heap: Mutex::new(heap),
+            device,
+            instance,
+        };
+        context.set_name(timeline, "timeline");
+        Ok(Self(Arc::new(Owner(Arc::new(context)))))
+    }
+
+    /// The device, its abilities and limits.
+    pub fn info(&self) -> &DeviceInfo {
+        &self.0.0.info
+    }
+
+    /// All warnings and errors of the validation layer so far, each starting with `warning: ` or `error: `. Empty
+    /// without validation and on a host's device, where the host has its own messenger.
+    pub fn validation_messages(&self) -> Vec<String> {
+        self.0.0.instance.messages()
+    }
+
+    /// What the live objects hold.
+    pub fn memory(&self) -> MemoryReport {
+        lock(&self.0.0.heap).report()
+    }
+
+    /// Waits for all that this crate has submitted, and frees what only that used.
+    ///
+    /// # Errors
+    /// [`GpuError::DeviceLost`] or [`GpuError::OutOfMemory`].
+    pub fn wait_idle(&self) -> Result<(), GpuError> {
+        self.0.0.wait_idle()
+    }
+
+    /// The host's word that every host command buffer recorded so far has finished: frees what only those used.
+    ///
+    /// # Safety
+    /// It is true.
+    pub unsafe fn host_idle(&self) {
+        let done = lock(&self.0.0.retired).take_host();
+        drop(done);
+    }
+
+    /// Starts recording. Encoders are submitted in the order in which they were recorded.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`] or [`GpuError::DeviceLost`].
+    pub fn encoder(&self, name: &str) -> Result<Encoder, GpuError> {
+        Encoder::new(self, name)
+    }
+
+    /// Records into the host's command buffer; [`Encoder::finish_on_host`] ends it, the host submits.
+    ///
+    /// # Safety
+    /// `command_buffer` is recording, outside of a render pass, belongs to this device and to a family with graphics
+    /// and compute, and nobody else records into it meanwhile. It is submitted once, to the queue of this device,
+    /// before anything recorded later; after it has finished, [`Gpu::host_idle`] is called.
+    pub unsafe fn encoder_on_host(&self, name: &str, command_buffer: vk::CommandBuffer) -> Encoder {
+        Encoder::on_host(self, name, command_buffer)
+    }
+
+    pub(crate) fn context(&self) -> &Arc<Context> {
+        &self.0.0
+    }
+}
+
+impl Context {
+    /// Names an object for the validation layer and for debuggers.
+    pub(crate) fn set_name<T: vk::Handle>(&self, handle: T, name: &str) {
+        let Some(debug) = &self.debug else { return };
+        let Ok(name) = CString::new(name) else { return };
+        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+        // SAFETY: the handle was just created from this device.
+        if let Err(result) = unsafe { debug.set_debug_utils_object_name(&info) } {
+            tracing::warn!("naming {name:?}: {result}");
+        }
+    }
+
+    /// Waits until the timeline is at `value`; `None` waits without end.
+    pub(crate) fn wait(&self, name: &str, value: u64, timeout_ms: Option<u64>) -> Result<(), GpuError> {
+        let (semaphores, values) = ([self.timeline], [value]);
+        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
+        let timeout_ns = timeout_ms.map_or(u64::MAX, |ms| ms.saturating_mul(1_000_000));
+        // SAFETY: the semaphore lives as long as the context.
+        let waited = unsafe { self.device.wait_semaphores(&info, timeout_ns) };
+        waited.map_err(|result| match result {
+            vk::Result::TIMEOUT => {
+                GpuError::Timeout { name: name.to_owned(), timeout_ms: timeout_ms.unwrap_or(u64::MAX) }
+            }
+            result => GpuError::from_vk("waiting for", name, result),
+        })?;
+        self.retire()
+    }
+
+    pub(crate) fn wait_idle(&self) -> Result<(), GpuError> {
+        let last = lock(&self.queue).last_submitted;
+        self.wait("device idle", last, None)
+    }
+
+    /// Frees what the device no longer uses.
+    pub(crate) fn retire(&self) -> Result<(), GpuError> {
+        // SAFETY: the semaphore lives as long as the context.
+        let passed = unsafe { self.device.get_semaphore_counter_value(self.timeline) }
+            .map_err(|result| GpuError::from_vk("reading", "timeline", result))?;
+        let done = lock(&self.retired).take_passed(passed);
+        // Dropped after the lock: freeing takes other locks.
+        drop(done);
+        Ok(())
+    }
+}
+
+impl Drop for Context {
+    fn drop(&mut self) {
+        for recording in std::mem::take(&mut *lock(&self.recordings)) {
+            recording.destroy(&self.device);
+        }
+        lock(&self.samplers).destroy(&self.device);
+        lock(&self.layouts).destroy(&self.device);
+        // SAFETY: pipelines hold the context, so none is being compiled; null is allowed.
+        unsafe { self.device.destroy_pipeline_cache(self.cache.raw, None) };
+        // SAFETY: the owner waited for the last submission before the context could go.
+        unsafe { self.device.destroy_semaphore(self.timeline, None) };
+    }
+}

@@ -1,0 +1,514 @@
+//! Recording, submitting and waiting.
+
+use super::barrier::{self, ImageUse, PassKind, PassKinds};
+use super::buffer::Buffer;
+use super::device::{Gpu, lock};
+use super::error::GpuError;
+use super::format;
+use super::image::{Image, ImageInner};
+use super::pass::{ComputePass, RenderPass};
+use super::pipeline::TargetFormats;
+use super::query::{FrameTimes, PassRecord, Recording};
+use super::retire::Kept;
+use ash::vk;
+use std::ffi::CString;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What a target holds when a pass starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Load {
+    /// This value; depth takes the first component.
+    Clear([f32; 4]),
+    /// What it held.
+    Keep,
+    /// Anything: the pass writes all that is read later.
+    Discard,
+}
+
+/// A colour target of a pass.
+#[derive(Clone, Copy)]
+pub struct ColorTarget<'a> {
+    /// The image; level 0 is drawn.
+    pub image: &'a Image,
+    /// Contents at the start.
+    pub load: Load,
+    /// Keep the contents at the end.
+    pub store: bool,
+    /// Average of the samples goes here at the end: one sample, same format.
+    pub resolve: Option<&'a Image>,
+}
+
+/// The depth target of a pass.
+#[derive(Clone, Copy)]
+pub struct DepthTarget<'a> {
+    /// The image.
+    pub image: &'a Image,
+    /// Contents at the start.
+    pub load: Load,
+    /// Keep the contents at the end.
+    pub store: bool,
+}
+
+/// A pass that draws.
+#[derive(Clone, Copy)]
+pub struct RenderPassDesc<'a> {
+    /// Name: the label in debuggers and the row of the frame's times.
+    pub name: &'a str,
+    /// Area that is drawn, from the corner of the targets, texels.
+    pub size: [u32; 2],
+    /// Colour targets in the order of the fragment shader's locations.
+    pub color: &'a [ColorTarget<'a>],
+    /// Depth target.
+    pub depth: Option<DepthTarget<'a>>,
+    /// Images that shaders read and that were something else before (targets of earlier passes).
+    pub sampled: &'a [&'a Image],
+}
+
+/// A command buffer being recorded.
+pub struct Encoder {
+    gpu: Gpu,
+    name: String,
+    recording: Option<Recording>,
+    pub(crate) command_buffer: vk::CommandBuffer,
+    is_on_host: bool,
+    passes: Vec<PassRecord>,
+    kinds: PassKinds,
+    kept: Kept,
+    /// Images with the use that they had before; restored when nothing is submitted.
+    touched: Vec<(Arc<ImageInner>, ImageUse)>,
+    problem: Option<GpuError>,
+    started: Instant,
+}
+
+impl Encoder {
+    pub(crate) fn new(gpu: &Gpu, name: &str) -> Result<Self, GpuError> {
+        gpu.context().retire()?;
+        let recording = Recording::begin(gpu.context(), name)?;
+        let command_buffer = recording.command_buffer;
+        Ok(Self::start(gpu, name, Some(recording), command_buffer))
+    }
+
+    pub(crate) fn on_host(gpu: &Gpu, name: &str, command_buffer: vk::CommandBuffer) -> Self {
+        Self::start(gpu, name, None, command_buffer)
+    }
+
+    fn start(gpu: &Gpu, name: &str, recording: Option<Recording>, command_buffer: vk::CommandBuffer) -> Self {
+        let encoder = Self {
+            gpu: gpu.clone(),
+            name: name.to_owned(),
+            is_on_host: recording.is_none(),
+            recording,
+            command_buffer,
+            passes: Vec::new(),
+            kinds: PassKinds::default(),
+            kept: Kept::default(),
+            touched: Vec::new(),
+            problem: None,
+            started: Instant::now(),
+        };
+        encoder.barriers(&[barrier::at_start().memory_barrier()], &[]);
+        encoder
+    }
+
+    /// The device that this records for.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Records a pass that draws. A target that does not fit leaves the pass out and fails the submission.
+    pub fn render_pass(&mut self, desc: &RenderPassDesc<'_>, record: impl FnOnce(&mut RenderPass<'_>)) {
+        let formats = match target_formats(desc) {
+            Ok(formats) => formats,
+            Err(problem) => return self.fail(GpuError::Interface { pipeline: desc.name.to_owned(), problem }),
+        };
+        let mut uses = Vec::new();
+        for target in desc.color {
+            uses.push((&target.image.0, ImageUse::ColorTarget));
+            uses.extend(target.resolve.map(|image| (&image.0, ImageUse::ColorTarget)));
+        }
+        uses.extend(desc.depth.map(|target| (&target.image.0, ImageUse::DepthTarget)));
+        uses.extend(desc.sampled.iter().map(|image| (&image.0, ImageUse::Sampled)));
+        self.begin_pass(desc.name, PassKind::Render, &uses);
+
+        let colors: Vec<_> = desc.color.iter().map(color_attachment).collect();
+        let depth = desc.depth.map(depth_attachment);
+        let [width, height] = desc.size;
+        let area = vk::Rect2D::default().extent(vk::Extent2D { width, height });
+        let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
+        if let Some(depth) = &depth {
+            info = info.depth_attachment(depth);
+        }
+        // SAFETY: sizes, samples and formats of the targets were checked and they are in the layouts of their use.
+        unsafe { self.gpu.context().device.cmd_begin_rendering(self.command_buffer, &info) };
+        let mut pass = RenderPass::new(self, formats, desc.size);
+        record(&mut pass);
+        // SAFETY: begun above; passes do not nest because `record` has the only reference.
+        unsafe { self.gpu.context().device.cmd_end_rendering(self.command_buffer) };
+        self.end_pass(PassKind::Render);
+    }
+
+    /// Records a pass that computes. Images of bound groups come into the layouts that they need by themselves;
+    /// `sampled` is for images that are read otherwise.
+    pub fn compute_pass(&mut self, name: &str, sampled: &[&Image], record: impl FnOnce(&mut ComputePass<'_>)) {
+        let uses: Vec<_> = sampled.iter().map(|image| (&image.0, ImageUse::Sampled)).collect();
+        self.begin_pass(name, PassKind::Compute, &uses);
+        record(&mut ComputePass::new(self));
+        self.end_pass(PassKind::Compute);
+    }
+
+    /// Copies level 0 of `image`, rows tightly packed from the top, to the start of `buffer`.
+    pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer) {
+        let inner = &image.0;
+        let fits = format::format_bytes(inner.format, inner.size).is_some_and(|bytes| bytes <= buffer.bytes());
+        if !fits || inner.samples != 1 || !inner.usage.contains(vk::ImageUsageFlags::TRANSFER_SRC) {
+            let what = format!("{:?} of {:?} texels, {} samples", inner.format, inner.size, inner.samples);
+            let problem = format!("{what}, cannot be copied to '{}' of {} bytes", buffer.name(), buffer.bytes());
+            return self.fail(inner.range(problem));
+        }
+        self.begin_pass(&format!("copy {}", inner.name), PassKind::Copy, &[(inner, ImageUse::CopySource)]);
+        let region = copy_region(inner, 0, 0);
+        self.kept.keep(&buffer.0);
+        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        let (device, target) = (&self.gpu.context().device, buffer.0.raw);
+        // SAFETY: the image is in the layout, the buffer holds the level, both are kept alive.
+        unsafe { device.cmd_copy_image_to_buffer(self.command_buffer, inner.raw, layout, target, &[region]) };
+        self.end_pass(PassKind::Copy);
+    }
+
+    /// Copies all bytes of `source` to the start of `target`.
+    pub fn copy_buffer(&mut self, source: &Buffer, target: &Buffer) {
+        if source.bytes() > target.bytes() || Arc::ptr_eq(&source.0, &target.0) {
+            let problem = format!("does not hold the {} bytes of '{}'", source.bytes(), source.name());
+            return self.fail(target.0.range(problem));
+        }
+        self.begin_pass(&format!("copy {}", source.name()), PassKind::Copy, &[]);
+        self.copy_to_buffer(source, 0, target, 0, source.bytes());
+        self.end_pass(PassKind::Copy);
+    }
+
+    /// Fills all whole words of `buffer` with `word`.
+    pub fn fill_buffer(&mut self, buffer: &Buffer, word: u32) {
+        self.begin_pass(&format!("fill {}", buffer.name()), PassKind::Copy, &[]);
+        self.kept.keep(&buffer.0);
+        let bytes = buffer.bytes() & !3;
+        if bytes > 0 {
+            let device = &self.gpu.context().device;
+            // SAFETY: the size is a multiple of 4 within the buffer, which is kept alive.
+            unsafe { device.cmd_fill_buffer(self.command_buffer, buffer.0.raw, 0, bytes, word) };
+        }
+        self.end_pass(PassKind::Copy);
+    }
+
+    /// Brings an image into the layout of a use outside of the passes, for example the host's.
+    pub fn transition(&mut self, image: &Image, image_use: ImageUse) {
+        if image_use == ImageUse::Undefined || image_use == ImageUse::Host(vk::ImageLayout::UNDEFINED) {
+            return self.fail(image.0.range("an image cannot be made undefined".to_owned()));
+        }
+        self.transition_all(&[(&image.0, image_use)]);
+    }
+
+    /// Submits what was recorded.
+    ///
+    /// # Errors
+    /// The first error of recording ([`GpuError::Interface`], [`GpuError::Range`]), [`GpuError::HostSubmits`],
+    /// [`GpuError::OutOfMemory`] or [`GpuError::DeviceLost`]. Then nothing was submitted.
+    pub fn submit(mut self) -> Result<Submission, GpuError> {
+        if let Some(problem) = self.problem.take() {
+            return Err(problem);
+        }
+        let Some(recording) = self.recording.take() else {
+            return Err(GpuError::HostSubmits { name: self.name.clone() });
+        };
+        self.barriers(&[barrier::at_end().memory_barrier()], &[]);
+        let gpu = self.gpu.clone();
+        let context = gpu.context();
+        let failed = |result| GpuError::from_vk("submitting", &self.name, result);
+        // SAFETY: the command buffer is recording and outside of any pass.
+        unsafe { context.device.end_command_buffer(self.command_buffer) }.map_err(failed)?;
+
+        let recording = Arc::new(recording);
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.command_buffer)];
+        let mut queue = lock(&context.queue);
+        let value = queue.last_submitted + 1;
+        let signals = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(context.timeline)
+            .value(value)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let submit = vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals);
+        // SAFETY: the lock is the queue's external synchronization; all that is referred to is kept below.
+        unsafe { context.device.queue_submit2(queue.raw, &[submit], vk::Fence::null()) }.map_err(failed)?;
+        queue.last_submitted = value;
+        drop(queue);
+
+        self.touched.clear();
+        let mut kept = std::mem::take(&mut self.kept);
+        kept.keep(&recording);
+        lock(&context.retired).submitted(value, kept);
+        Ok(Submission {
+            name: std::mem::take(&mut self.name),
+            recording,
+            passes: std::mem::take(&mut self.passes),
+            value,
+            record_ms: self.started.elapsed().as_secs_f64() * 1e3,
+            gpu: gpu.clone(),
+        })
+    }
+
+    /// Ends recording into the host's command buffer, which the host ends and submits. Without times on the device.
+    ///
+    /// # Errors
+    /// The first error of recording. The command buffer is valid all the same; the failing draws are not in it.
+    pub fn finish_on_host(mut self) -> Result<FrameTimes, GpuError> {
+        let passes = std::mem::take(&mut self.passes).into_iter().map(PassRecord::without_times).collect();
+        let record_ms = self.started.elapsed().as_secs_f64() * 1e3;
+        match self.problem.take() {
+            Some(problem) => Err(problem),
+            None => Ok(FrameTimes { passes, gpu_ms: None, record_ms }),
+        }
+    }
+
+    /// Keeps the first problem of recording for `submit`.
+    pub(crate) fn fail(&mut self, problem: GpuError) {
+        self.problem.get_or_insert(problem);
+    }
+
+    pub(crate) fn keep<T: std::any::Any + Send + Sync>(&mut self, thing: &Arc<T>) {
+        self.kept.keep(thing);
+    }
+
+    pub(crate) fn count(&mut self, instances: u64, triangles: u64) {
+        if let Some(pass) = self.passes.last_mut() {
+            pass.draws += 1;
+            pass.instances += instances;
+            pass.triangles += triangles * instances;
+        }
+    }
+
+    /// The one place where a pass begins: label, barriers, then its time and counts.
+    pub(crate) fn begin_pass(&mut self, name: &str, kind: PassKind, uses: &[(&Arc<ImageInner>, ImageUse)]) {
+        let index = self.passes.len();
+        self.passes.push(PassRecord { name: name.to_owned(), ..PassRecord::default() });
+        if let (Some(debug), Ok(name)) = (&self.gpu.context().debug, CString::new(name)) {
+            let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+            // SAFETY: the extension is enabled; `end_pass` ends the label.
+            unsafe { debug.cmd_begin_debug_utils_label(self.command_buffer, &label) };
+        }
+        if let Some(dependency) = barrier::before_pass(self.kinds, kind) {
+            self.barriers(&[dependency.memory_barrier()], &[]);
+        }
+        self.kinds.insert(kind);
+        self.transition_all(uses);
+        if let Some(recording) = &mut self.recording {
+            recording.begin_pass(index, kind != PassKind::Copy);
+        }
+    }
+
+    pub(crate) fn end_pass(&mut self, kind: PassKind) {
+        let index = self.passes.len().saturating_sub(1);
+        if let Some(recording) = &mut self.recording {
+            recording.end_pass(index, kind != PassKind::Copy);
+        }
+        let name_is_valid = self.passes.last().is_some_and(|pass| !pass.name.contains('\0'));
+        if let Some(debug) = self.gpu.context().debug.as_ref().filter(|_| name_is_valid) {
+            // SAFETY: ends the label that `begin_pass` began.
+            unsafe { debug.cmd_end_debug_utils_label(self.command_buffer) };
+        }
+    }
+
+    /// Brings every image into its use, in one command.
+    pub(crate) fn transition_all(&mut self, uses: &[(&Arc<ImageInner>, ImageUse)]) {
+        let mut image_barriers = Vec::new();
+        for (index, (image, after)) in uses.iter().enumerate() {
+            self.kept.keep(image);
+            if let Some((_, other)) = uses[..index].iter().find(|(earlier, _)| Arc::ptr_eq(earlier, image)) {
+                if other != after {
+                    self.fail(image.range(format!("used as {other:?} and {after:?} in one pass")));
+                }
+                continue;
+            }
+            let before = std::mem::replace(&mut *lock(&image.last_use), *after);
+            if !self.touched.iter().any(|(touched, _)| Arc::ptr_eq(touched, image)) {
+                self.touched.push(((*image).clone(), before));
+            }
+            if let Some(dependency) = barrier::between_uses(before, *after) {
+                image_barriers.push(dependency.image_barrier(image.raw, format::aspects(image.format)));
+            }
+        }
+        self.barriers(&[], &image_barriers);
+    }
+
+    /// A barrier between two dispatches of one pass.
+    pub(crate) fn compute_barrier(&mut self) {
+        let mut kinds = PassKinds::default();
+        kinds.insert(PassKind::Compute);
+        if let Some(dependency) = barrier::before_pass(kinds, PassKind::Compute) {
+            self.barriers(&[dependency.memory_barrier()], &[]);
+        }
+    }
+
+    /// Copies between buffers inside of a copy pass; the caller has checked the ranges.
+    pub(crate) fn copy_to_buffer(
+        &mut self,
+        source: &Buffer,
+        source_offset: u64,
+        target: &Buffer,
+        target_offset: u64,
+        bytes: u64,
+    ) {
+        self.kept.keep(&source.0);
+        self.kept.keep(&target.0);
+        let region = vk::BufferCopy { src_offset: source_offset, dst_offset: target_offset, size: bytes };
+        let device = &self.gpu.context().device;
+        // SAFETY: the ranges are within both buffers, which are kept alive.
+        unsafe { device.cmd_copy_buffer(self.command_buffer, source.0.raw, target.0.raw, &[region]) };
+    }
+
+    /// Copies a tightly packed level inside of a copy pass that has the image as copy target.
+    pub(crate) fn copy_to_image(&mut self, source: &Buffer, source_offset: u64, image: &Arc<ImageInner>, level: u32) {
+        self.kept.keep(&source.0);
+        let region = copy_region(image, source_offset, level);
+        let layout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+        let device = &self.gpu.context().device;
+        // SAFETY: the caller checked level and bytes; the image is in the layout; both are kept alive.
+        unsafe { device.cmd_copy_buffer_to_image(self.command_buffer, source.0.raw, image.raw, layout, &[region]) };
+    }
+
+    fn barriers(&self, memory: &[vk::MemoryBarrier2<'_>], images: &[vk::ImageMemoryBarrier2<'_>]) {
+        if memory.is_empty() && images.is_empty() {
+            return;
+        }
+        let info = vk::DependencyInfo::default().memory_barriers(memory).image_memory_barriers(images);
+        // SAFETY: recorded outside of rendering; masks come from `barrier`, layouts from the images' last use.
+        unsafe { self.gpu.context().device.cmd_pipeline_barrier2(self.command_buffer, &info) };
+    }
+}
+
+impl Drop for Encoder {
+    fn drop(&mut self) {
+        if self.is_on_host {
+            let kept = std::mem::take(&mut self.kept);
+            lock(&self.gpu.context().retired).recorded_on_host(kept);
+            return;
+        }
+        // Not submitted: the images are still what they were.
+        for (image, before) in self.touched.drain(..) {
+            *lock(&image.last_use) = before;
+        }
+    }
+}
+
+/// Work that the device has been given. Dropping it neither waits nor cancels.
+pub struct Submission {
+    gpu: Gpu,
+    name: String,
+    recording: Arc<Recording>,
+    passes: Vec<PassRecord>,
+    value: u64,
+    record_ms: f64,
+}
+
+impl Submission {
+    /// Waits until the work has finished and reports its times.
+    ///
+    /// # Errors
+    /// [`GpuError::Timeout`] (may be waited for again), [`GpuError::DeviceLost`] or [`GpuError::OutOfMemory`].
+    pub fn wait(&self, timeout_ms: u64) -> Result<FrameTimes, GpuError> {
+        self.gpu.context().wait(&self.name, self.value, Some(timeout_ms))?;
+        Ok(self.recording.times(&self.passes, self.record_ms))
+    }
+}
+
+/// The formats of a pass's targets, or what is wrong with them.
+fn target_formats(desc: &RenderPassDesc<'_>) -> Result<TargetFormats, String> {
+    let [width, height] = desc.size;
+    let attachments = desc.color.iter().map(|target| target.image);
+    let depth = desc.depth.map(|target| target.image);
+    let resolves = desc.color.iter().filter_map(|target| target.resolve);
+    for image in attachments.clone().chain(depth).chain(resolves) {
+        let [w, h] = image.size();
+        if width == 0 || height == 0 || width > w || height > h {
+            return Err(format!("{width}x{height} does not fit in target '{}' of {w}x{h}", image.name()));
+        }
+    }
+    let Some(samples) = attachments.clone().chain(depth).map(Image::samples).next() else {
+        return Err("a pass has at least one target".to_owned());
+    };
+    for image in attachments.clone().chain(depth) {
+        if image.samples() != samples {
+            return Err(format!("target '{}' has {} samples, the first {samples}", image.name(), image.samples()));
+        }
+    }
+    for image in attachments.clone() {
+        if !image.0.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT) {
+            return Err(format!("target '{}' lacks COLOR_ATTACHMENT", image.name()));
+        }
+    }
+    if let Some(image) = depth.filter(|image| !image.0.usage.contains(vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT)) {
+        return Err(format!("target '{}' lacks DEPTH_STENCIL_ATTACHMENT", image.name()));
+    }
+    for target in desc.color {
+        let Some(resolve) = target.resolve else { continue };
+        let is_target = resolve.0.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT);
+        if !is_target || samples == 1 || resolve.samples() != 1 || resolve.format() != target.image.format() {
+            let (from, to) = (target.image.name(), resolve.name());
+            return Err(format!(
+                "'{to}' cannot take the resolve of '{from}': one sample, same format, COLOR_ATTACHMENT"
+            ));
+        }
+    }
+    Ok(TargetFormats { color: attachments.map(Image::format).collect(), depth: depth.map(Image::format), samples })
+}
+
+fn load_op(load: Load) -> vk::AttachmentLoadOp {
+    match load {
+        Load::Clear(_) => vk::AttachmentLoadOp::CLEAR,
+        Load::Keep => vk::AttachmentLoadOp::LOAD,
+        Load::Discard => vk::AttachmentLoadOp::DONT_CARE,
+    }
+}
+
+fn store_op(store: bool) -> vk::AttachmentStoreOp {
+    if store { vk::AttachmentStoreOp::STORE } else { vk::AttachmentStoreOp::DONT_CARE }
+}
+
+fn color_attachment<'a>(target: &ColorTarget<'_>) -> vk::RenderingAttachmentInfo<'a> {
+    let float32 = if let Load::Clear(color) = target.load { color } else { [0.0; 4] };
+    let layout = barrier::layout(ImageUse::ColorTarget);
+    let info = vk::RenderingAttachmentInfo::default()
+        .image_view(target.image.0.level_0_view)
+        .image_layout(layout)
+        .load_op(load_op(target.load))
+        .store_op(store_op(target.store))
+        .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32 } });
+    match target.resolve {
+        None => info,
+        Some(resolve) => info
+            .resolve_mode(vk::ResolveModeFlags::AVERAGE)
+            .resolve_image_view(resolve.0.level_0_view)
+            .resolve_image_layout(layout),
+    }
+}
+
+fn depth_attachment<'a>(target: DepthTarget<'_>) -> vk::RenderingAttachmentInfo<'a> {
+    let depth = if let Load::Clear([depth, ..]) = target.load { depth } else { 0.0 };
+    vk::RenderingAttachmentInfo::default()
+        .image_view(target.image.0.level_0_view)
+        .image_layout(barrier::layout(ImageUse::DepthTarget))
+        .load_op(load_op(target.load))
+        .store_op(store_op(target.store))
+        .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } })
+}
+
+fn copy_region(image: &ImageInner, buffer_offset: u64, mip_level: u32) -> vk::BufferImageCopy {
+    let [width, height] = format::level_size(image.size, mip_level);
+    vk::BufferImageCopy::default()
+        .buffer_offset(buffer_offset)
+        .image_subresource(vk::ImageSubresourceLayers {
+            aspect_mask: format::view_aspect(image.format),
+            mip_level,
+            base_array_layer: 0,
+            layer_count: 1,
+        })
+        .image_extent(vk::Extent3D { width, height, depth: 1 })
+}

@@ -1,0 +1,31 @@
+//! Images back to the host.
+
+use super::device::Gpu;
+use super::error::GpuError;
+use super::format::format_bytes;
+use super::image::Image;
+use super::memory::Memory;
+use ash::vk;
+
+/// The copy waits for all earlier work of the queue; software devices take seconds for a heavy frame.
+const TIMEOUT_MS: u64 = 120_000;
+
+impl Gpu {
+    /// Reads level 0 of an image: rows tightly packed from the top, texels in the image's format. Waits for all earlier
+    /// work.
+    ///
+    /// # Errors
+    /// [`GpuError::Unsupported`] for a format without a known layout, [`GpuError::Range`] for a multisampled image,
+    /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`], [`GpuError::Timeout`].
+    pub fn read_image(&self, image: &Image) -> Result<Vec<u8>, GpuError> {
+        let bytes = format_bytes(image.format(), image.size()).ok_or_else(|| GpuError::Unsupported {
+            name: image.name().to_owned(),
+            problem: format!("reading back {:?}", image.format()),
+        })?;
+        let buffer = self.buffer("readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
+        let mut encoder = self.encoder("readback")?;
+        encoder.copy_image_to_buffer(image, &buffer);
+        encoder.submit()?.wait(TIMEOUT_MS)?;
+        buffer.read()
+    }
+}
