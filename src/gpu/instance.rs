@@ -144,10 +144,12 @@ unsafe extern "system" fn on_message(
     let Some(messages) = (unsafe { user_data.cast::<Messages>().as_ref() }) else { return vk::FALSE };
     // SAFETY: `p_message` is null or a null-terminated string, by the same rule.
     let text = unsafe { data.message_as_c_str() }.map(CStr::to_string_lossy).unwrap_or_default();
+    // SAFETY: `p_message_id_name` is null or a null-terminated string, by the same rule.
+    let id = unsafe { data.message_id_name_as_c_str() }.map(CStr::to_string_lossy).unwrap_or_default();
     let kind = match severity {
         vk::DebugUtilsMessageSeverityFlagsEXT::ERROR => "error",
         _ => "warning",
     };
-    messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {text}"));
+    messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {id}: {text}"));
     vk::FALSE
 }

@@ -5,7 +5,7 @@ use std::process::Command;
 use vair::shader::Stage;
 
 /// Compiles `source` and gives its words for the rest of the test run.
-pub fn compile(name: &str, stage: Stage, source: &str) -> &'static [u32] {
+pub(crate) fn compile(name: &str, stage: Stage, source: &str) -> &'static [u32] {
     let dir = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
     let (input, output) = (dir.path().join(name), dir.path().join("out.spv"));
     std::fs::write(&input, source).unwrap();
