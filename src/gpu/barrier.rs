@@ -81,18 +81,10 @@ fn masks(image_use: ImageUse) -> UseMasks {
             A::DEPTH_STENCIL_ATTACHMENT_WRITE,
             vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
         ),
-        ImageUse::Sampled => {
-            (SHADERS, A::SHADER_SAMPLED_READ, A::NONE, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
-        }
-        ImageUse::Storage => {
-            (SHADERS, A::SHADER_STORAGE_READ, A::SHADER_STORAGE_WRITE, vk::ImageLayout::GENERAL)
-        }
-        ImageUse::CopySource => {
-            (S::ALL_TRANSFER, A::TRANSFER_READ, A::NONE, vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
-        }
-        ImageUse::CopyTarget => {
-            (S::ALL_TRANSFER, A::NONE, A::TRANSFER_WRITE, vk::ImageLayout::TRANSFER_DST_OPTIMAL)
-        }
+        ImageUse::Sampled => (SHADERS, A::SHADER_SAMPLED_READ, A::NONE, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL),
+        ImageUse::Storage => (SHADERS, A::SHADER_STORAGE_READ, A::SHADER_STORAGE_WRITE, vk::ImageLayout::GENERAL),
+        ImageUse::CopySource => (S::ALL_TRANSFER, A::TRANSFER_READ, A::NONE, vk::ImageLayout::TRANSFER_SRC_OPTIMAL),
+        ImageUse::CopyTarget => (S::ALL_TRANSFER, A::NONE, A::TRANSFER_WRITE, vk::ImageLayout::TRANSFER_DST_OPTIMAL),
         ImageUse::Host(layout) => (S::ALL_COMMANDS, A::MEMORY_READ, A::MEMORY_WRITE, layout),
     };
     UseMasks { stages, reads, writes, layout }

@@ -239,4 +239,3 @@ impl DeviceInfo {
         self.max_anisotropy = if core.sampler_anisotropy == vk::TRUE { self.max_anisotropy } else { 1.0 };
     }
 }
-

@@ -186,7 +186,7 @@ impl Gpu {
         &self.0.0.info
     }
 
-    /// All warnings and errors of the validation layer so far, each starting with `warning: ` or `error: `. Empty
+    /// All warnings and errors of the validation layer so far, each `error: <id>: <text>` or `warning: ...`. Empty
     /// without validation and on a host's device, where the host has its own messenger.
     pub fn validation_messages(&self) -> Vec<String> {
         self.0.0.instance.messages()

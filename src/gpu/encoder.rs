@@ -135,8 +135,7 @@ impl Encoder {
         let depth = desc.depth.map(depth_attachment);
         let [width, height] = desc.size;
         let area = vk::Rect2D::default().extent(vk::Extent2D { width, height });
-        let mut info =
-            vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
+        let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
         if let Some(depth) = &depth {
             info = info.depth_attachment(depth);
         }
@@ -453,7 +452,9 @@ fn target_formats(desc: &RenderPassDesc<'_>) -> Result<TargetFormats, String> {
         let is_target = resolve.0.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT);
         if !is_target || samples == 1 || resolve.samples() != 1 || resolve.format() != target.image.format() {
             let (from, to) = (target.image.name(), resolve.name());
-            return Err(format!("'{to}' cannot take the resolve of '{from}': one sample, same format, COLOR_ATTACHMENT"));
+            return Err(format!(
+                "'{to}' cannot take the resolve of '{from}': one sample, same format, COLOR_ATTACHMENT"
+            ));
         }
     }
     Ok(TargetFormats { color: attachments.map(Image::format).collect(), depth: depth.map(Image::format), samples })

@@ -151,10 +151,7 @@ mod tests {
             missing: vec!["Vulkan 1.3".into()],
         };
         let text = GpuError::NoDevice { asked: Some("card".into()), refused: vec![device] }.to_string();
-        assert_eq!(
-            text,
-            "no usable Vulkan device whose name contains 'card'; found: Old Card (lacks Vulkan 1.3)"
-        );
+        assert_eq!(text, "no usable Vulkan device whose name contains 'card'; found: Old Card (lacks Vulkan 1.3)");
     }
 
     #[test]

@@ -48,9 +48,8 @@ impl Instance {
         }
         // SAFETY: no preconditions.
         let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }.map_err(failed)?;
-        let has_debug_utils = extensions
-            .iter()
-            .any(|extension| extension.extension_name_as_c_str() == Ok(ash::ext::debug_utils::NAME));
+        let has_debug_utils =
+            extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(ash::ext::debug_utils::NAME));
 
         let application = vk::ApplicationInfo::default()
             .application_name(c"vair")
@@ -145,10 +144,12 @@ unsafe extern "system" fn on_message(
     let Some(messages) = (unsafe { user_data.cast::<Messages>().as_ref() }) else { return vk::FALSE };
     // SAFETY: `p_message` is null or a null-terminated string, by the same rule.
     let text = unsafe { data.message_as_c_str() }.map(CStr::to_string_lossy).unwrap_or_default();
+    // SAFETY: `p_message_id_name` is null or a null-terminated string, by the same rule.
+    let id = unsafe { data.message_id_name_as_c_str() }.map(CStr::to_string_lossy).unwrap_or_default();
     let kind = match severity {
         vk::DebugUtilsMessageSeverityFlagsEXT::ERROR => "error",
         _ => "warning",
     };
-    messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {text}"));
+    messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {id}: {text}"));
     vk::FALSE
 }

@@ -40,8 +40,7 @@ impl Layouts {
         if let Some(layout) = self.pipelines.get(&key) {
             return Ok((sets, *layout));
         }
-        let ranges =
-            [vk::PushConstantRange::default().stage_flags(interface.push_stages).size(interface.push_bytes)];
+        let ranges = [vk::PushConstantRange::default().stage_flags(interface.push_stages).size(interface.push_bytes)];
         let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&key.0);
         if interface.push_bytes > 0 {
             info = info.push_constant_ranges(&ranges);

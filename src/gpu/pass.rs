@@ -91,9 +91,7 @@ impl Bound {
             let device = &encoder.gpu().context().device;
             let (point, layout, sets) = (pipeline.bind_point, pipeline.layout, [group.raw]);
             // SAFETY: the set has the layout that the pipeline has at this number, and is kept alive.
-            unsafe {
-                device.cmd_bind_descriptor_sets(encoder.command_buffer, point, layout, set as u32, &sets, &[])
-            };
+            unsafe { device.cmd_bind_descriptor_sets(encoder.command_buffer, point, layout, set as u32, &sets, &[]) };
             self.is_group_stale[set] = false;
         }
         let push_bytes = pipeline.interface.push_bytes as usize;
@@ -202,9 +200,7 @@ impl<'e> RenderPass<'e> {
         let (buffers, offsets, strides) = ([buffer.0.raw], [offset_bytes], [stride_bytes]);
         let command_buffer = self.encoder.command_buffer;
         // SAFETY: usage, offset, location and stride were checked; the buffer is kept alive.
-        unsafe {
-            device.cmd_bind_vertex_buffers2(command_buffer, location, &buffers, &offsets, None, Some(&strides))
-        };
+        unsafe { device.cmd_bind_vertex_buffers2(command_buffer, location, &buffers, &offsets, None, Some(&strides)) };
         self.streams |= 1 << location;
     }
 

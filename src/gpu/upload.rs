@@ -89,7 +89,8 @@ impl Upload {
     pub fn image(&mut self, target: &Image, levels: &[&[u8]]) {
         let inner = &target.0;
         if levels.len() > inner.mip_levels as usize || inner.samples != 1 {
-            let problem = format!("{} levels given for {} of {} samples", levels.len(), inner.mip_levels, inner.samples);
+            let problem =
+                format!("{} levels given for {} of {} samples", levels.len(), inner.mip_levels, inner.samples);
             return self.fail(inner.range(problem));
         }
         for (level, bytes) in (0_u32..).zip(levels) {
