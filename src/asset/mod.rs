@@ -1,4 +1,5 @@
 //! Files or formulas to plain data.
 
 mod model;
+pub mod procedural;
 pub use model::*;

@@ -142,6 +142,9 @@ mod tests {
             assert!((projection.project_point3(top).y - 1.0).abs() < 1e-6);
             assert!((projection.project_point3(right).x - 1.0).abs() < 1e-6);
         }
-        assert_eq!(orthographic(2.0, 1.0, 0.0, 1.0).project_point3(Vec3::new(2.0, 1.0, 0.0)).truncate(), glam::Vec2::ONE);
+        assert_eq!(
+            orthographic(2.0, 1.0, 0.0, 1.0).project_point3(Vec3::new(2.0, 1.0, 0.0)).truncate(),
+            glam::Vec2::ONE
+        );
     }
 }

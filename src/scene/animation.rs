@@ -148,9 +148,14 @@ mod tests {
     fn linear_and_step_hit_their_keys_and_hold_outside() {
         let linear = asset_with(Interpolation::Linear, &[1.0, 2.0, 3.0], along_x(&[10.0, 20.0, 0.0]));
         let step = asset_with(Interpolation::Step, &[1.0, 2.0, 3.0], along_x(&[10.0, 20.0, 0.0]));
-        for (time_s, on_line, on_step) in
-            [(-5.0, 10.0, 10.0), (1.0, 10.0, 10.0), (1.25, 12.5, 10.0), (2.0, 20.0, 20.0), (2.5, 10.0, 20.0), (9.0, 0.0, 0.0)]
-        {
+        for (time_s, on_line, on_step) in [
+            (-5.0, 10.0, 10.0),
+            (1.0, 10.0, 10.0),
+            (1.25, 12.5, 10.0),
+            (2.0, 20.0, 20.0),
+            (2.5, 10.0, 20.0),
+            (9.0, 0.0, 0.0),
+        ] {
             assert_eq!(x_at(&linear, time_s), on_line, "linear at {time_s}");
             assert_eq!(x_at(&step, time_s), on_step, "step at {time_s}");
         }
@@ -210,7 +215,11 @@ mod tests {
         let depth = 100_000;
         let step = Transform::Trs { translation: Vec3::X, rotation: Quat::IDENTITY, scale: Vec3::ONE };
         let nodes = (0..depth)
-            .map(|i| Node { children: if i + 1 < depth { vec![i + 1] } else { vec![] }, transform: step, ..Node::default() })
+            .map(|i| Node {
+                children: if i + 1 < depth { vec![i + 1] } else { vec![] },
+                transform: step,
+                ..Node::default()
+            })
             .collect();
         let asset = Asset { nodes, ..Asset::default() };
         assert_eq!(pose(&asset, None, 0.0).world_from_node[depth - 1].w_axis.x, depth as f32);

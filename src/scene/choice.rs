@@ -40,7 +40,8 @@ pub fn find_camera(asset: &Asset, text: &str) -> Result<usize, SceneError> {
     match by_node().filter(|_| !is_camera_name).and_then(|node| node.camera) {
         Some(camera) => Ok(camera),
         None => {
-            let names = asset.cameras.iter().enumerate().map(|(i, camera)| camera.name.as_deref().or_else(|| held_by(i)));
+            let names =
+                asset.cameras.iter().enumerate().map(|(i, camera)| camera.name.as_deref().or_else(|| held_by(i)));
             find("camera", text, names)
         }
     }

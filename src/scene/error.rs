@@ -14,7 +14,9 @@ pub enum SceneError {
         available: Vec<String>,
     },
     /// The camera exists but no node of the scene holds it.
-    #[error("camera \"{camera}\" is held by no node of scene {scene}: choose another scene, another camera, or an orbit")]
+    #[error(
+        "camera \"{camera}\" is held by no node of scene {scene}: choose another scene, another camera, or an orbit"
+    )]
     CameraOutsideScene {
         /// Name or index as asked.
         camera: String,

@@ -85,9 +85,9 @@ impl Light {
             LightKind::Point | LightKind::Spot { .. } => {
                 // A point on the light itself gets a bright but finite value.
                 let distance_squared = to_light.length_squared().max(1e-8);
-                let window = self.range_m.map_or(1.0, |range_m| {
-                    (1.0 - (distance_squared / (range_m * range_m)).powi(2)).clamp(0.0, 1.0)
-                });
+                let window = self
+                    .range_m
+                    .map_or(1.0, |range_m| (1.0 - (distance_squared / (range_m * range_m)).powi(2)).clamp(0.0, 1.0));
                 (to_light.normalize_or(Vec3::Y), window / distance_squared)
             }
         };

@@ -1,0 +1,9 @@
+//! Meshes, images and whole scenes by formula: nothing is read, nothing is random, every run gives the same bytes.
+
+mod gallery;
+mod image;
+mod mesh;
+
+pub use gallery::{GALLERY_CAMERA, gallery, lit_quad};
+pub use image::{checker, strand_image};
+pub use mesh::{backdrop, capsule, cube, plane, rounded_cube, sphere, torus, torus_knot, uv_sphere};
