@@ -17,6 +17,8 @@ pub const DEFAULT_FOV_DEG: f32 = 35.0;
 const FRAMED_SHARE: f32 = 0.92;
 /// The framing distance of something without size, metres.
 const DISTANCE_TO_A_POINT_M: f32 = 1.0;
+/// The framing view keeps this share of the bounding radius between the eye and the nearest corner.
+const CLEARANCE_RADII: f32 = 0.1;
 /// Fur and displacement reach beyond the bounds: the near plane keeps this many bounding radii away from their middle.
 const KEPT_RADII: f32 = 1.5;
 /// Nearest near plane, as a share of the scene's radius or distance: float depth reversed has precision to spare.
@@ -165,18 +167,14 @@ fn sin_cos_deg(angle_deg: f32) -> (f32, f32) {
 fn framing_distance_m(axes: Mat3, target: Vec3, fov: f32, aspect: f32, bounds: Aabb) -> f32 {
     let half_height = (0.5 * fov).tan() * FRAMED_SHARE;
     let camera_from_world = axes.transpose();
-    let distance_m = if bounds.is_empty() {
-        0.0
-    } else {
-        bounds.corners().into_iter().map(|corner| camera_from_world * (corner - target)).fold(
-            0.0,
-            |distance: f32, corner| {
-                distance
-                    .max(corner.z + corner.y.abs() / half_height)
-                    .max(corner.z + corner.x.abs() / (half_height * aspect))
-            },
-        )
-    };
+    let corners: &[Vec3] = if bounds.is_empty() { &[] } else { &bounds.corners() };
+    // A line seen along itself needs no width at all: the eye still stays outside.
+    let clearance_m = bounds.sphere().radius * CLEARANCE_RADII;
+    let distance_m =
+        corners.iter().map(|&corner| camera_from_world * (corner - target)).fold(0.0, |distance, corner| {
+            let half_size_m = (corner.y.abs() / half_height).max(corner.x.abs() / (half_height * aspect));
+            f32::max(distance, corner.z + half_size_m.max(clearance_m))
+        });
     // Something without size, as seen by f32 at its place, would put the eye inside it.
     let resolution_m = target.length() * 1e-6;
     if distance_m > resolution_m { distance_m } else { DISTANCE_TO_A_POINT_M.max(resolution_m * 1e3) }

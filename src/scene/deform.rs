@@ -21,9 +21,8 @@ pub fn deform(primitive: &Primitive, joints: &[Mat4], weights: &[f32]) -> Vertic
         add(&mut vertices.normals, &target.normals, weight);
         add(&mut tangents, &target.tangents, weight);
     }
-    for vertex in 0..vertices.positions.len() {
+    for (vertex, position) in vertices.positions.iter_mut().enumerate() {
         let skin = blended_joint(&primitive.vertices, vertex, joints);
-        let position = &mut vertices.positions[vertex];
         *position = skin.transform_point3(*position);
         if let Some(normal) = vertices.normals.get_mut(vertex) {
             *normal = (normal_matrix(skin) * *normal).normalize_or(primitive.vertices.normals[vertex]);

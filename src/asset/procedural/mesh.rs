@@ -185,8 +185,7 @@ fn grid([columns, rows]: [u32; 2], uv_repeat: Vec2, surface: impl Fn(f32, f32) -
             let (u, v) = (column as f32 / columns as f32, row as f32 / rows as f32);
             let SurfacePoint { position, normal, along_u } = surface(u, v);
             let normal = normal.normalize_or(Vec3::Y);
-            let tangent =
-                (along_u - normal * normal.dot(along_u)).normalize_or(normal.any_orthonormal_vector());
+            let tangent = (along_u - normal * normal.dot(along_u)).normalize_or(normal.any_orthonormal_vector());
             vertices.positions.push(position);
             vertices.normals.push(normal);
             vertices.tangents.push(Vec4::from((tangent, 1.0)));
