@@ -1,7 +1,7 @@
 //! Morphing and skinning on the CPU: the twin of the compute pass, and the source of posed bounds.
 //!
-//! Morph first, then skin (glTF 2.0, 3.7.2.2 and 3.7.3.3). Linear blend skinning: `sum(weight * joint)` as one matrix; normals
-//! by its inverse transpose, tangents by the matrix itself, both normalised again.
+//! Morph first, then skin (glTF 2.0, 3.7.2.2 and 3.7.3.3). Linear blend skinning: `sum(weight * joint)` as one matrix;
+//! normals by its inverse transpose, tangents by the matrix itself, both normalised again.
 
 use glam::{Mat4, Vec3};
 
@@ -10,9 +10,9 @@ use crate::math::normal_matrix;
 
 /// The primitive's vertices in a pose.
 ///
-/// `joints` are [`joint_matrices`](super::joint_matrices) (empty = not skinned), `weights` one per morph target (missing
-/// ones count as 0). Attributes that do not deform are copied. With joints the result is in world space, without in object
-/// space. A normal or tangent that vanishes keeps its rest value.
+/// `joints` are [`joint_matrices`](super::joint_matrices) (empty = not skinned), `weights` one per morph target
+/// (missing ones count as 0). Attributes that do not deform are copied. With joints the result is in world space,
+/// without in object space. A normal or tangent that vanishes keeps its rest value.
 pub fn deform(primitive: &Primitive, joints: &[Mat4], weights: &[f32]) -> Vertices {
     let mut vertices = primitive.vertices.clone();
     let mut tangents: Vec<Vec3> = vertices.tangents.iter().map(|tangent| tangent.truncate()).collect();

@@ -13,8 +13,8 @@ use crate::asset::{
 /// Name of the gallery's camera: its composition is made for this view at 16:9.
 pub const GALLERY_CAMERA: &str = "hero";
 
-/// What the program shows without a file: a photographer's table with furs around a furred knot, and a metal and a ceramic
-/// ball to compare them with. About a metre wide; the front is +Z.
+/// What the program shows without a file: a photographer's table with furs around a furred knot, and a metal and a
+/// ceramic ball to compare them with. About a metre wide; the front is +Z.
 ///
 /// The material "fur" (fox, on the knot) is the one that timings are quoted for.
 pub fn gallery() -> Asset {
@@ -52,8 +52,9 @@ pub fn gallery() -> Asset {
     set.asset("gallery")
 }
 
-/// A unit square in the XY plane, facing +Z, that exactly fills a square picture of the orthographic camera "front", under one
-/// directional light of pi lux that shines straight onto it: a white Lambert surface then reflects a radiance of 1.
+/// A unit square in the XY plane, facing +Z, that exactly fills a square picture of the orthographic camera "front",
+/// under one directional light of pi lux that shines straight onto it: a white Lambert surface then reflects a radiance
+/// of 1.
 pub fn lit_quad(material: Material) -> Asset {
     let mut set = Set::default();
     let material = set.material(material);
