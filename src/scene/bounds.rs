@@ -7,19 +7,20 @@ use super::{Instance, Pose, instances, joint_matrices, pose};
 use crate::asset::{Asset, Primitive};
 use crate::math::Aabb;
 
-/// Skinned vertices beyond this many (per primitive) are bounded by boxes around each joint's share instead of one by one.
+/// Skinned vertices beyond this many (per primitive) are bounded by boxes around each joint's share instead of one by
+/// one.
 const EXACT_SKINNED_VERTICES: usize = 100_000;
 
 /// Box around everything that a scene shows in a pose, in world space; empty for an empty scene.
 ///
-/// Exact for rigid, morphed and skinned meshes; a skinned primitive of more than 100,000 vertices gets a box that is never
-/// too small.
+/// Exact for rigid, morphed and skinned meshes; a skinned primitive of more than 100,000 vertices gets a box that is
+/// never too small.
 pub fn world_bounds(asset: &Asset, scene: usize, pose: &Pose) -> Aabb {
     bounds_of(asset, pose, &instances(asset, scene, pose, None))
 }
 
-/// Radius of the sphere around a node's mesh in its rest pose, world metres: what relative fur lengths are measured against,
-/// so that all primitives of a mesh agree and animation does not change it. 0 for a node without a mesh.
+/// Radius of the sphere around a node's mesh in its rest pose, world metres: what relative fur lengths are measured
+/// against, so that all primitives of a mesh agree and animation does not change it. 0 for a node without a mesh.
 ///
 /// Rigid: half the diagonal of the object-space box, its axes scaled as the node scales them (turning changes nothing).
 /// Skinned: half the diagonal of the rest pose's world box.
@@ -63,8 +64,8 @@ fn primitive_bounds(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weight
     )
 }
 
-/// A skinned vertex is a weighted mean of its joints' images of it, so it lies in the union of each joint's image of the box
-/// around all vertices that the joint moves.
+/// A skinned vertex is a weighted mean of its joints' images of it, so it lies in the union of each joint's image of
+/// the box around all vertices that the joint moves.
 fn joint_boxes(primitive: &Primitive, used: &[bool], joints: &[Mat4], weights: &[f32]) -> Aabb {
     let mut boxes = vec![Aabb::EMPTY; joints.len()];
     for (vertex, &position) in morphed_positions(primitive, weights).iter().enumerate().filter(|&(i, _)| used[i]) {

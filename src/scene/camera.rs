@@ -95,13 +95,13 @@ impl Camera {
 
 /// The chosen view of a scene.
 ///
-/// `aspect` is the picture's width / height; `bounds` are [`world_bounds`](super::world_bounds) in the same pose. Scenes of any size, points
-/// and empty scenes give a usable camera. A file camera whose aspect differs from the picture's shows at least all that the
-/// file frames; the scale of its node is ignored.
+/// `aspect` is the picture's width / height; `bounds` are [`world_bounds`](super::world_bounds) in the same pose.
+/// Scenes of any size, points and empty scenes give a usable camera. A file camera whose aspect differs from the
+/// picture's shows at least all that the file frames; the scale of its node is ignored.
 ///
 /// # Errors
-/// [`SceneError::Unknown`] and [`SceneError::CameraOutsideScene`] for file cameras, [`SceneError::View`] for numbers out
-/// of range.
+/// [`SceneError::Unknown`] and [`SceneError::CameraOutsideScene`] for file cameras, [`SceneError::View`] for numbers
+/// out of range.
 pub fn camera(
     asset: &Asset,
     scene: usize,
@@ -147,7 +147,8 @@ fn orbit(
     Ok(Camera::new(axes, eye, perspective_infinite(fov, aspect, near_m(eye, target, bounds)), false))
 }
 
-/// Right, up, backwards. Written out instead of by cross products with Y, so that straight up and down are no exception.
+/// Right, up, backwards. Written out instead of by cross products with Y, so that straight up and down are no
+/// exception.
 fn orbit_axes(theta_deg: f32, phi_deg: f32) -> Mat3 {
     let (sin_theta, cos_theta) = sin_cos_deg(theta_deg);
     let (sin_phi, cos_phi) = sin_cos_deg(phi_deg);
@@ -240,8 +241,8 @@ fn projection(projection: Projection, aspect: f32) -> (Mat4, bool) {
     }
 }
 
-/// The node's rotation: it looks along its -Z with its Y upwards, whatever its scale or shear; a mirrored node's picture is
-/// not mirrored.
+/// The node's rotation: it looks along its -Z with its Y upwards, whatever its scale or shear; a mirrored node's
+/// picture is not mirrored.
 fn unscaled_axes(world_from_node: Mat4) -> Mat3 {
     let backwards = world_from_node.z_axis.truncate().normalize_or(Vec3::Z);
     let up = world_from_node.y_axis.truncate();

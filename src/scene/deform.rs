@@ -1,7 +1,7 @@
 //! Morphing and skinning on the CPU: the twin of the compute pass, and the source of posed bounds.
 //!
-//! Morph first, then skin (glTF 2.0, 3.7.2.2 and 3.7.3.3). Linear blend skinning: `sum(weight * joint)` as one matrix; normals
-//! by its inverse transpose, tangents by the matrix itself, both normalised again.
+//! Morph first, then skin (glTF 2.0, 3.7.2.2 and 3.7.3.3). Linear blend skinning: `sum(weight * joint)` as one matrix;
+//! normals by its inverse transpose, tangents by the matrix itself, both normalised again.
 
 use glam::{Mat4, Vec3};
 
@@ -10,9 +10,9 @@ use crate::math::normal_matrix;
 
 /// The primitive's vertices in a pose.
 ///
-/// `joints` are [`joint_matrices`](super::joint_matrices) (empty = not skinned), `weights` one per morph target (missing
-/// ones count as 0). Attributes that do not deform are copied. With joints the result is in world space, without in object
-/// space. A normal or tangent that vanishes keeps its rest value.
+/// `joints` are [`joint_matrices`](super::joint_matrices) (empty = not skinned), `weights` one per morph target
+/// (missing ones count as 0). Attributes that do not deform are copied. With joints the result is in world space,
+/// without in object space. A normal or tangent that vanishes keeps its rest value.
 pub fn deform(primitive: &Primitive, joints: &[Mat4], weights: &[f32]) -> Vertices {
     let mut vertices = primitive.vertices.clone();
     let mut tangents: Vec<Vec3> = vertices.tangents.iter().map(|tangent| tangent.truncate()).collect();
@@ -21,9 +21,8 @@ pub fn deform(primitive: &Primitive, joints: &[Mat4], weights: &[f32]) -> Vertic
         add(&mut vertices.normals, &target.normals, weight);
         add(&mut tangents, &target.tangents, weight);
     }
-    for vertex in 0..vertices.positions.len() {
+    for (vertex, position) in vertices.positions.iter_mut().enumerate() {
         let skin = blended_joint(&primitive.vertices, vertex, joints);
-        let position = &mut vertices.positions[vertex];
         *position = skin.transform_point3(*position);
         if let Some(normal) = vertices.normals.get_mut(vertex) {
             *normal = (normal_matrix(skin) * *normal).normalize_or(primitive.vertices.normals[vertex]);

@@ -1,7 +1,7 @@
 //! Lights of a scene in world space.
 //!
-//! KHR_lights_punctual: directional in lux, point and spot in candela, all times a linear colour. Reflected radiance of a
-//! white Lambert surface is irradiance / pi, so pi lux show as 1.
+//! KHR_lights_punctual: directional in lux, point and spot in candela, all times a linear colour. Reflected radiance of
+//! a white Lambert surface is irradiance / pi, so pi lux show as 1.
 
 use std::f32::consts::PI;
 

@@ -1,7 +1,7 @@
 //! From a loaded file to what one frame shows: pose, instances, lights, camera, bounds.
 //!
-//! Everything here is a pure function of an [`Asset`](crate::asset::Asset) and a [`Pose`]; nothing knows the GPU. Matrices
-//! are named `to_from_source`, lengths are metres, angles radians unless a name says otherwise.
+//! Everything here is a pure function of an [`Asset`](crate::asset::Asset) and a [`Pose`]; nothing knows the GPU.
+//! Matrices are named `to_from_source`, lengths are metres, angles radians unless a name says otherwise.
 
 mod animation;
 mod bounds;

@@ -1,15 +1,16 @@
 //! Directions in which fur shells grow: smooth across hard edges, so that pushed-out faces stay joined.
 //!
 //! A hard-edged mesh has several vertices at one place, one per face, each with its own normal; pushed along those the
-//! surface opens at every edge. Here all corners that meet at a place share the angle-weighted mean of their face normals
-//! (Thürmer & Wüthrich 1998, "Computing Vertex Normals from Polygonal Facets"), which does not depend on how the faces are
-//! cut into triangles.
+//! surface opens at every edge. Here all corners that meet at a place share the angle-weighted mean of their face
+//! normals (Thürmer & Wüthrich 1998, "Computing Vertex Normals from Polygonal Facets"), which does not depend on how
+//! the faces are cut into triangles.
 //!
-//! A thin sheet has a front and a back at the same places, whose normals would cancel. So the faces at a place are first
-//! gathered into clusters: two belong together when they use the same vertex or when their normals differ by less than
-//! 120 degrees, and whatever hangs together that way is one cluster with one direction. A cube's corner (90 degrees) is
-//! one cluster; the inside of a sheet (180 degrees) is two, each with its own side's direction; a sheet with side walls
-//! is joined around its rim and closes there. Only edges sharper than 60 degrees with split vertices can open.
+//! A thin sheet has a front and a back at the same places, whose normals would cancel. So the faces at a place are
+//! first gathered into clusters: two belong together when they use the same vertex or when their normals differ by less
+//! than 120 degrees, and whatever hangs together that way is one cluster with one direction. A cube's corner (90
+//! degrees) is one cluster; the inside of a sheet (180 degrees) is two, each with its own side's direction; a sheet
+//! with side walls is joined around its rim and closes there. Only edges sharper than 60 degrees with split vertices
+//! can open.
 
 use std::collections::HashMap;
 
@@ -22,8 +23,8 @@ use crate::math::Aabb;
 const WELD_TOLERANCE: f64 = 1e-6;
 /// Faces at one place whose normals' cosine is above this belong together: 120 degrees.
 const CLUSTER_COSINE: f64 = -0.5;
-/// Faces whose normals' cosine is above this (5 degrees) count as one when clusters are sought, which bounds the work at a
-/// place where very many faces meet.
+/// Faces whose normals' cosine is above this (5 degrees) count as one when clusters are sought, which bounds the work
+/// at a place where very many faces meet.
 const SAME_FACE_COSINE: f64 = 0.996;
 /// Twice the area over the squared longest edge below which a triangle has no normal worth using.
 const DEGENERATE_SHARE: f64 = 1e-10;
@@ -33,11 +34,11 @@ pub fn shell_directions(primitive: &Primitive) -> Vec<Vec3> {
     directions(&[primitive]).pop().unwrap_or_default()
 }
 
-/// Shell direction of every vertex of every primitive: unit length, object space, rest pose; primitives agree where they
-/// meet. Deform them as normals.
+/// Shell direction of every vertex of every primitive: unit length, object space, rest pose; primitives agree where
+/// they meet. Deform them as normals.
 ///
-/// A vertex without a usable face keeps its own normal, as does one whose faces cancel; points and lines keep theirs too
-/// (zero where they have none).
+/// A vertex without a usable face keeps its own normal, as does one whose faces cancel; points and lines keep theirs
+/// too (zero where they have none).
 pub fn shell_directions_of_mesh(mesh: &Mesh) -> Vec<Vec<Vec3>> {
     directions(&mesh.primitives.iter().collect::<Vec<_>>())
 }
@@ -112,8 +113,8 @@ fn corners(primitives: &[&Primitive]) -> Vec<Corner> {
     corners
 }
 
-/// Number of the place of every vertex: a vertex joins the first place within the tolerance, sought in the grid cells that
-/// its ball of tolerance touches. Cells are wider than the ball, so that it mostly touches one.
+/// Number of the place of every vertex: a vertex joins the first place within the tolerance, sought in the grid cells
+/// that its ball of tolerance touches. Cells are wider than the ball, so that it mostly touches one.
 fn places(primitives: &[&Primitive]) -> Vec<u32> {
     const CELL_TOLERANCES: f64 = 8.0;
     let positions = || primitives.iter().flat_map(|primitive| primitive.vertices.positions.iter().copied());

@@ -13,13 +13,13 @@ use crate::asset::{
 /// Name of the gallery's camera: its composition is made for this view at 16:9.
 pub const GALLERY_CAMERA: &str = "hero";
 
-/// What the program shows without a file: a photographer's table with furs around a furred knot, and a metal and a ceramic
-/// ball to compare them with. About a metre wide; the front is +Z.
+/// What the program shows without a file: a photographer's table with furs around a furred knot, and a metal and a
+/// ceramic ball to compare them with. About a metre wide; the front is +Z.
 ///
 /// The material "fur" (fox, on the knot) is the one that timings are quoted for.
 pub fn gallery() -> Asset {
     let mut set = Set::default();
-    let paper = set.material(surface("backdrop", [0.40, 0.385, 0.37], 0.0, 0.9));
+    let paper = set.material(surface("backdrop", [0.24, 0.228, 0.216], 0.0, 0.9));
     let stone = set.material(surface("plinth", [0.13, 0.125, 0.125], 0.0, 0.55));
     let copper = set.material(surface("copper", [0.955, 0.638, 0.538], 1.0, 0.32));
     let ceramic = set.material(surface("ceramic", [0.07, 0.20, 0.24], 0.0, 0.28));
@@ -30,13 +30,13 @@ pub fn gallery() -> Asset {
 
     set.object("backdrop", backdrop(3.0, 2.2, 1.3, 2.4, 0.9), paper, Vec3::ZERO, Quat::IDENTITY);
     set.object("plinth", rounded_cube(0.17, 0.012, 12), stone, Vec3::new(0.0, -0.06, -0.02), turned(0.35));
-    set.object("knot", torus_knot(0.125, 0.05, 0.044, 320, 40), fox, Vec3::new(0.0, 0.37, -0.02), tilted(0.25, -0.12));
+    set.object("knot", torus_knot(0.125, 0.05, 0.044, 320, 40), fox, Vec3::new(0.0, 0.35, -0.02), tilted(0.25, -0.12));
     set.object("leopard ball", sphere(0.12, 28), leopard, Vec3::new(-0.40, 0.14, 0.10), tilted(0.5, 0.2));
-    set.object("plush block", rounded_cube(0.085, 0.04, 24), plush, Vec3::new(0.36, 0.10, 0.16), turned(0.6));
-    set.object("mink roll", capsule(0.06, 0.09, 48, 64), mink, Vec3::new(0.47, 0.09, -0.16), lying(0.9));
-    set.object("mink ring", torus(0.085, 0.036, 96, 36), mink, Vec3::new(-0.14, 0.06, 0.42), tilted(0.3, 0.0));
-    set.object("copper ball", sphere(0.06, 32), copper, Vec3::new(0.13, 0.06, 0.40), Quat::IDENTITY);
-    set.object("ceramic ball", sphere(0.042, 28), ceramic, Vec3::new(-0.34, 0.042, 0.36), Quat::IDENTITY);
+    set.object("plush block", rounded_cube(0.085, 0.04, 24), plush, Vec3::new(0.33, 0.10, 0.20), turned(0.6));
+    set.object("mink roll", capsule(0.06, 0.09, 48, 64), mink, Vec3::new(0.52, 0.085, -0.04), lying(0.35));
+    set.object("mink ring", torus(0.085, 0.036, 96, 36), mink, Vec3::new(-0.17, 0.06, 0.40), tilted(0.3, 0.0));
+    set.object("copper ball", sphere(0.06, 32), copper, Vec3::new(0.10, 0.06, 0.44), Quat::IDENTITY);
+    set.object("ceramic ball", sphere(0.042, 28), ceramic, Vec3::new(-0.45, 0.042, 0.36), Quat::IDENTITY);
 
     // Key from the upper left, a cool rim from behind that draws the hair tips, a weak warm fill from the right.
     let key = LightKind::Directional;
@@ -52,8 +52,9 @@ pub fn gallery() -> Asset {
     set.asset("gallery")
 }
 
-/// A unit square in the XY plane, facing +Z, that exactly fills a square picture of the orthographic camera "front", under one
-/// directional light of pi lux that shines straight onto it: a white Lambert surface then reflects a radiance of 1.
+/// A unit square in the XY plane, facing +Z, that exactly fills a square picture of the orthographic camera "front",
+/// under one directional light of pi lux that shines straight onto it: a white Lambert surface then reflects a radiance
+/// of 1.
 pub fn lit_quad(material: Material) -> Asset {
     let mut set = Set::default();
     let material = set.material(material);

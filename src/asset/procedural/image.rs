@@ -12,9 +12,9 @@ pub fn checker(size_px: u32, cells: u32, colors: [[u8; 4]; 2]) -> Image {
 
 /// A tileable strand distribution map: one strand in each of `cells` by `cells` cells, jittered, as linear data.
 ///
-/// R is the strand's profile, a cone: 1 on its axis, falling to 0 at `radius_cells` (in cell widths, above 0 and at most
-/// 1), the nearest strand wins. G is a number of the strand in [0, 1] (for colour or length variation), B its height in
-/// [0.6, 1], A is 255. The same arguments give the same bytes.
+/// R is the strand's profile, a cone: 1 on its axis, falling to 0 at `radius_cells` (in cell widths, above 0 and at
+/// most 1), the nearest strand wins. G is a number of the strand in [0, 1] (for colour or length variation), B its
+/// height in [0.6, 1], A is 255. The same arguments give the same bytes.
 pub fn strand_image(size_px: u32, cells: u32, radius_cells: f32, seed: u32) -> Image {
     let cells = cells.max(1) as i32;
     image("strands", size_px, |x, y| {
@@ -50,7 +50,8 @@ fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 / (1 << 24) as f32
 }
 
-/// Three words to one; each step is the PCG output permutation (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering").
+/// Three words to one; each step is the PCG output permutation (Jarzynski & Olano 2020, "Hash Functions for GPU
+/// Rendering").
 fn hash(words: [u32; 3]) -> u32 {
     words.into_iter().fold(0, |state, word| {
         let state = (state ^ word).wrapping_mul(747_796_405).wrapping_add(2_891_336_453);

@@ -1,7 +1,7 @@
 //! Surfaces by formula, with normals, tangents and uv.
 //!
-//! Sizes are metres. uv (0, 0) is the top left of a texture, so v falls where the surface's second parameter grows; normal,
-//! tangent and bitangent follow from that (w = +1). Seams have split uv but bit-equal positions.
+//! Sizes are metres. uv (0, 0) is the top left of a texture, so v falls where the surface's second parameter grows;
+//! normal, tangent and bitangent follow from that (w = +1). Seams have split uv but bit-equal positions.
 
 use std::f32::consts::{PI, TAU};
 
@@ -112,8 +112,8 @@ pub fn torus(ring_radius_m: f32, tube_radius_m: f32, columns: u32, rows: u32) ->
     })
 }
 
-/// A closed tube along a trefoil that winds twice around Z and three times through its hole. Its reach from the origin is
-/// `ring_radius_m + swing_m + tube_radius_m`. uv as for [`torus`].
+/// A closed tube along a trefoil that winds twice around Z and three times through its hole. Its reach from the origin
+/// is `ring_radius_m + swing_m + tube_radius_m`. uv as for [`torus`].
 pub fn torus_knot(ring_radius_m: f32, swing_m: f32, tube_radius_m: f32, columns: u32, rows: u32) -> Primitive {
     let center = |t: f32| {
         let ((sin2, cos2), (sin3, cos3)) = ((2.0 * t).sin_cos(), (3.0 * t).sin_cos());
@@ -148,8 +148,8 @@ pub fn torus_knot(ring_radius_m: f32, swing_m: f32, tube_radius_m: f32, columns:
     })
 }
 
-/// A photographer's backdrop: floor at y = 0 that bends up into a wall. The floor reaches from z = `front_m` back to the bend
-/// of `bend_radius_m`, whose wall stands at z = `-back_m` and rises to `height_m`.
+/// A photographer's backdrop: floor at y = 0 that bends up into a wall. The floor reaches from z = `front_m` back to
+/// the bend of `bend_radius_m`, whose wall stands at z = `-back_m` and rises to `height_m`.
 pub fn backdrop(half_width_m: f32, front_m: f32, back_m: f32, height_m: f32, bend_radius_m: f32) -> Primitive {
     let floor_m = front_m + back_m - bend_radius_m;
     let bend_m = 0.5 * PI * bend_radius_m;
