@@ -2,7 +2,7 @@
 //! `shaders_glsl/lib/albedo.glsl`: `cargo run --example fit_albedo`.
 //!
 //! Minimax fits by iteratively reweighted least squares (Lawson 1961). Limits are unequal on purpose: where a fit is
-//! below the truth the surface would gain energy, so that side is held ten times closer than the other.
+//! below the truth the surface would gain energy, so that side is held closer than the other.
 
 use vair::material::reference::albedo::{
     AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis,
