@@ -2,7 +2,7 @@
 //! `shaders_glsl/lib/albedo.glsl`: `cargo run --example fit_albedo`.
 //!
 //! Minimax fits by iteratively reweighted least squares (Lawson 1961). Limits are unequal on purpose: where a fit is
-//! below the truth the surface would gain energy, so that side is held ten times closer than the other.
+//! below the truth the surface would gain energy, so that side is held closer than the other.
 
 use vair::material::reference::albedo::{
     AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis,
@@ -24,10 +24,14 @@ fn main() {
 
     let rows = samples.iter().map(|s| white_basis(s.mu, s.roughness)).collect();
     let targets = samples.iter().map(|s| s.scale + s.bias).collect::<Vec<_>>();
-    let limits = targets.iter().map(|&e| (0.0005 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
+    let limits = targets.iter().map(|&e| (0.0007 * e, (0.009 * e).min(0.003))).collect::<Vec<_>>();
     for (index, c) in minimax(rows, &targets, &limits).into_iter().enumerate() {
         fit.white[index / 4][index % 4] = c;
     }
+
+    // What the iteration left below its limit is lifted out as a whole: there the surface would gain energy.
+    let lack = samples.iter().map(|s| (s.scale + s.bias) / fit.terms(s.mu, s.roughness).0).fold(0.0, f64::max);
+    fit.white.iter_mut().flatten().for_each(|c| *c *= (lack / 1.0007).max(1.0));
 
     // The Fresnel share corrects for what the white fit misses: its target is the bias itself.
     let rows = samples

@@ -111,7 +111,7 @@ impl Buffer {
         if inner.memory != Memory::Readback {
             return Err(inner.range("only Readback memory can be read by the host".to_owned()));
         }
-        if size_of::<T>() == 0 || inner.bytes % size_of::<T>() as u64 != 0 {
+        if size_of::<T>() == 0 || !inner.bytes.is_multiple_of(size_of::<T>() as u64) {
             return Err(problem());
         }
         let block = lock(&inner.block);

@@ -74,7 +74,7 @@ impl Instance {
             info = info.push_next(&mut validation);
         }
         // SAFETY: every layer and extension named was listed by the loader or comes with the layer.
-        let raw = unsafe { entry.create_instance(&info, None) }.map_err(failed)?;
+        let raw = unsafe { entry.create_instance(&info, None) }.map_err(not_created)?;
         let mut instance = Self { _entry: entry, raw, messenger: None, has_debug_utils, is_owned: true };
         if validate && has_debug_utils {
             instance.messenger = Some(Messenger::new(&instance._entry, &instance.raw)?);
@@ -91,6 +91,14 @@ impl Instance {
             Some(messenger) => messenger.messages.0.lock().unwrap_or_else(PoisonError::into_inner).clone(),
             None => Vec::new(),
         }
+    }
+}
+
+/// The loader refuses an instance when no driver at all is installed.
+fn not_created(result: vk::Result) -> GpuError {
+    match result {
+        vk::Result::ERROR_INCOMPATIBLE_DRIVER => GpuError::NoDevice { asked: None, refused: Vec::new() },
+        result => GpuError::from_vk("creating", "instance", result),
     }
 }
 
@@ -152,4 +160,15 @@ unsafe extern "system" fn on_message(
     };
     messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {id}: {text}"));
     vk::FALSE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_any_driver_the_error_names_the_package() {
+        let error = not_created(vk::Result::ERROR_INCOMPATIBLE_DRIVER).to_string();
+        assert!(error.contains("mesa-vulkan-drivers"), "{error}");
+    }
 }

@@ -1,0 +1,114 @@
+//! Small shaders with their interfaces written by hand, each for one promise of the device layer.
+
+use crate::glsl::compile;
+use std::sync::LazyLock;
+use vair::shader::{Binding, BindingKind, Shader, SpecConstant, Stage, VertexFormat, VertexInput};
+
+fn shader(name: &'static str, stage: Stage, source: &str) -> Shader {
+    Shader {
+        name,
+        stage,
+        spirv: compile(name, stage, source),
+        bindings: &[],
+        push_constant_bytes: 0,
+        constants: &[],
+        inputs: &[],
+        workgroup_size: [0; 3],
+    }
+}
+
+/// Position and colour as two streams.
+pub(crate) static COLORED_VERT: LazyLock<Shader> = LazyLock::new(|| Shader {
+    inputs: &[
+        VertexInput { name: "position", location: 0, format: VertexFormat::Vec2 },
+        VertexInput { name: "color", location: 1, format: VertexFormat::Vec4 },
+    ],
+    ..shader(
+        "colored.vert",
+        Stage::Vertex,
+        "#version 450
+        layout(location = 0) in vec2 position;
+        layout(location = 1) in vec4 color;
+        layout(location = 0) out vec4 v_color;
+        void main() { gl_Position = vec4(position, 0.5, 1.0); v_color = color; }",
+    )
+});
+
+pub(crate) static COLORED_FRAG: LazyLock<Shader> = LazyLock::new(|| {
+    shader(
+        "colored.frag",
+        Stage::Fragment,
+        "#version 450
+        layout(location = 0) in vec4 v_color;
+        layout(location = 0) out vec4 color;
+        void main() { color = v_color; }",
+    )
+});
+
+/// Covers the target without vertex inputs; reads a texture, a uniform block, a constant and a push constant.
+pub(crate) static FULL_VERT: LazyLock<Shader> = LazyLock::new(|| {
+    shader(
+        "full.vert",
+        Stage::Vertex,
+        "#version 450
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.5, 1.0); }",
+    )
+});
+
+pub(crate) static TINT_FRAG: LazyLock<Shader> = LazyLock::new(|| Shader {
+    bindings: &[
+        Binding { set: 0, binding: 0, name: "tint", kind: BindingKind::Uniform { bytes: 16 } },
+        Binding { set: 1, binding: 0, name: "base", kind: BindingKind::Texture },
+        Binding { set: 1, binding: 1, name: "base_sampler", kind: BindingKind::Sampler },
+    ],
+    push_constant_bytes: 16,
+    constants: &[SpecConstant { name: "channel_count", id: 7, default_bits: 4 }],
+    ..shader(
+        "tint.frag",
+        Stage::Fragment,
+        "#version 450
+        layout(constant_id = 7) const int channel_count = 4;
+        layout(set = 0, binding = 0) uniform Tint { vec4 value; } tint;
+        layout(set = 1, binding = 0) uniform texture2D base;
+        layout(set = 1, binding = 1) uniform sampler base_sampler;
+        layout(push_constant) uniform Push { vec4 offset; };
+        layout(location = 0) out vec4 color;
+        void main() {
+            vec4 texel = texture(sampler2D(base, base_sampler), vec2(0.5));
+            color = texel * tint.value + offset;
+            if (channel_count < 4) color.a = 1.0;
+        }",
+    )
+});
+
+pub(crate) static CORNERS_COMP: LazyLock<Shader> = LazyLock::new(|| Shader {
+    bindings: &[Binding { set: 0, binding: 0, name: "corners", kind: BindingKind::Storage { readonly: false } }],
+    workgroup_size: [3, 1, 1],
+    ..shader(
+        "corners.comp",
+        Stage::Compute,
+        "#version 450
+        layout(local_size_x = 3) in;
+        layout(set = 0, binding = 0) buffer Corners { vec2 at[]; } corners;
+        void main() {
+            uint i = gl_LocalInvocationIndex;
+            corners.at[i] = vec2(i & 1u, i >> 1) * 4.0 - 1.0;
+        }",
+    )
+});
+
+pub(crate) static PAINT_COMP: LazyLock<Shader> = LazyLock::new(|| Shader {
+    bindings: &[Binding { set: 0, binding: 0, name: "picture", kind: BindingKind::StorageImage }],
+    workgroup_size: [4, 4, 1],
+    ..shader(
+        "paint.comp",
+        Stage::Compute,
+        "#version 450
+        layout(local_size_x = 4, local_size_y = 4) in;
+        layout(set = 0, binding = 0, rgba8) writeonly uniform image2D picture;
+        void main() {
+            ivec2 texel = ivec2(gl_LocalInvocationID.xy);
+            imageStore(picture, texel, vec4(texel.x * 51.0 / 255.0, texel.y * 51.0 / 255.0, 0.0, 1.0));
+        }",
+    )
+});
