@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
 use vair::asset::LoadOptions;
+use vair::asset::procedural::GALLERY_CAMERA;
 use vair::material::Look;
 use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
 use vair::scene::{self, CameraChoice, Scene};
@@ -148,7 +149,11 @@ impl SceneArguments {
             return camera.clone();
         }
         if self.orbit.is_none() && self.target.is_none() && self.fov.is_none() {
-            return CameraChoice::Auto;
+            // The gallery is composed for one view; its backdrop is not what should fill the picture.
+            return match self.scene_file {
+                Some(_) => CameraChoice::Auto,
+                None => CameraChoice::Named(GALLERY_CAMERA.to_owned()),
+            };
         }
         let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
         CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG) }
