@@ -1,10 +1,11 @@
 // Opacity to sample coverage. Done in the shader rather than by alpha-to-coverage: the pattern is then the
 // same on every driver, and the alpha channel keeps the coverage of the picture.
 
-// Ordered 2x2 offsets, so that four pixels together tell 17 levels of four samples apart.
+// A threshold in [0, 1) for each pixel, spread so evenly that neighbours together keep the mean and no pattern stands
+// out. Source: Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare", interleaved gradient
+// noise.
 float coverage_dither(uvec2 pixel) {
-    uint index = (pixel.x & 1u) + 2u * ((pixel.x ^ pixel.y) & 1u);
-    return (float(index) + 0.5) * 0.25;
+    return fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
 }
 
 // Bits of the samples that an opacity in [0, 1] covers. One sample: a plain cut at one half.

@@ -97,7 +97,8 @@ void main() {
     vec3 step_y = dFdy(position_in_world);
     float slab_m = height_and_length.y / float(fur.layers);
     float along_strand = max(dot(strand, normal), 0.1);
-    float along_ray = max(cosine_to_eye, 0.05);
+    // Shells that face away are drawn, too: past the outline their strands stand out over it.
+    float along_ray = cosine_to_eye < 0.0 ? min(cosine_to_eye, -0.05) : max(cosine_to_eye, 0.05);
     vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
     vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
 
@@ -120,15 +121,20 @@ void main() {
         vec3 cell_x = dFdx(root_in_rest) * cells_per_unit;
         vec3 cell_y = dFdy(root_in_rest) * cells_per_unit;
         vec3 half_segment = in_steps.x * cell_x + in_steps.y * cell_y;
-        float segment_length = length(half_segment);
-        if (segment_length > 0.5) { half_segment *= 0.5 / segment_length; }
+        float half_length = length(half_segment);
+        float seen_length = min(half_length, STRAND_SEGMENT);
+        half_segment *= seen_length / max(half_length, 1e-6);
         vec3 in_cells = root_in_rest * cells_per_unit;
         if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height); }
         StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
         // The narrower footprint: the wider one, at grazing angles, runs along the segment.
         float footprint = sqrt(min(dot(cell_x, cell_x), dot(cell_y, cell_y)));
         opacity = strand_opacity(field.profile, threshold, footprint / fur.strand_radius,
-                                 strand_mean_coverage(threshold, fur.strand_radius));
+                                 strand_mean_coverage(threshold, fur.strand_radius, seen_length));
+        // Strands along the rest of a grazing ray: what they hide is known, if not where they stand.
+        float hidden = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, half_length);
+        float seen = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, seen_length);
+        opacity = 1.0 - (1.0 - opacity) * (hidden / seen);
         own_random = field.random;
     }
     // Each factor lies in [0, 1], so their product does.

@@ -32,7 +32,8 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan,
             DrawKind::Surface(surface) => {
                 (resources.surface(surface, spec), 1, scene.materials[surface.material].standard.double_sided)
             }
-            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, false),
+            // Shells that face away carry the strands that stand out over the outline.
+            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, true),
         };
         pass.bind(1, material);
         for input in inputs(shader(&spec.vertex)) {
