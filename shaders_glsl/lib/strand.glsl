@@ -65,11 +65,17 @@ float strand_threshold(float height, float cutoff_start, float cutoff_end, bool 
     return mix(cutoff_start, cutoff_end, rise);
 }
 
+// How far strands are below the eye's resolution: 0 each is seen, 1 only their mean is. `slope` is the change of the
+// profile over a pixel.
+float strand_unresolved(float slope) {
+    return smoothstep(0.75, 2.0, slope);
+}
+
 // Opacity of a profile at a threshold, one pixel wide at the edge. `slope` is the change of the profile over a
 // pixel; below the eye's resolution (slope > 1) it fades to the mean coverage.
 float strand_opacity(float profile, float threshold, float slope, float mean_coverage) {
     float edge = clamp((profile - threshold) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
-    return mix(edge, mean_coverage, smoothstep(0.75, 2.0, slope));
+    return mix(edge, mean_coverage, strand_unresolved(slope));
 }
 
 // Strand bent to a circular arc that keeps its length: x = sideways, y = along the root direction, both over the

@@ -17,7 +17,7 @@ layout(constant_id = 8) const bool HAS_DISTRIBUTION_MAP = false;
 layout(constant_id = 9) const bool HAS_BASE_COLOR_MAP = false;
 layout(constant_id = 10) const bool HAS_SPOT_MAP = false;
 layout(constant_id = 11) const bool HAS_LOCKS = false;       // clump or curl
-layout(constant_id = 12) const bool HARD_CUT = false;        // cutout: opacity is 0 or 1 but for the edge
+layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity near by, too, not only far away
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
@@ -103,33 +103,36 @@ void main() {
     vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
 
     float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
+    vec3 rest_x = dFdx(root_in_rest);
+    vec3 rest_y = dFdy(root_in_rest);
+    // The narrower side of the pixel: the wider one, at grazing angles, runs along the slab's segment.
+    float pixel_in_rest = sqrt(min(dot(rest_x, rest_x), dot(rest_y, rest_y)));
     float own_random = 0.5;
     float opacity;
+    float slope;
 #ifdef MAPS
     if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
         vec2 gradient_x = dFdx(map_uv);
         vec2 gradient_y = dFdy(map_uv);
         float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
-        opacity = strand_opacity(map, threshold, fwidth(map), map >= threshold ? 1.0 : 0.0);
+        slope = fwidth(map);
+        opacity = strand_opacity(map, threshold, slope, map >= threshold ? 1.0 : 0.0);
         own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
     } else
 #endif
     {
         float cells_per_unit = 1.0 / fur.strand_spacing;
         vec3 rest_normal = normalize(direction_in_rest);
-        vec3 cell_x = dFdx(root_in_rest) * cells_per_unit;
-        vec3 cell_y = dFdy(root_in_rest) * cells_per_unit;
-        vec3 half_segment = in_steps.x * cell_x + in_steps.y * cell_y;
+        vec3 half_segment = (in_steps.x * rest_x + in_steps.y * rest_y) * cells_per_unit;
         float half_length = length(half_segment);
         float seen_length = min(half_length, STRAND_SEGMENT);
         half_segment *= seen_length / max(half_length, 1e-6);
         vec3 in_cells = root_in_rest * cells_per_unit;
         if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height); }
         StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
-        // The narrower footprint: the wider one, at grazing angles, runs along the segment.
-        float footprint = sqrt(min(dot(cell_x, cell_x), dot(cell_y, cell_y)));
-        opacity = strand_opacity(field.profile, threshold, footprint / fur.strand_radius,
+        slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
+        opacity = strand_opacity(field.profile, threshold, slope,
                                  strand_mean_coverage(threshold, fur.strand_radius, seen_length));
         // Strands along the rest of a grazing ray: what they hide is known, if not where they stand.
         float hidden = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, half_length);
@@ -141,12 +144,15 @@ void main() {
     opacity *= (1.0 - fur.tip_fade * height) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 
     uint samples = SAMPLE_COUNT;
+    float unresolved = strand_unresolved(slope);
     int mask = -1;
     if (BLEND) {
         if (opacity <= 0.0) { discard; }
     } else {
-        if (HARD_CUT && samples == 1u) { opacity = opacity >= 0.5 ? 1.0 : 0.0; }
-        mask = coverage_mask(opacity, samples, uvec2(gl_FragCoord.xy));
+        // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
+        float grain = coverage_grain(root_in_rest, pixel_in_rest);
+        float rounding = mix(0.5, grain, KEEP_PARTIAL ? 1.0 : unresolved);
+        mask = coverage_mask(opacity, samples, rounding, uvec2(gl_FragCoord.xy));
         if (mask == 0) { discard; }
     }
     gl_SampleMask[0] = mask;

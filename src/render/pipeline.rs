@@ -148,7 +148,7 @@ impl PipelineSpec {
         let switches = [
             ("INNER_FIRST", blend),
             ("BLEND", blend),
-            ("HARD_CUT", fur.blend == Blend::Cutout),
+            ("KEEP_PARTIAL", fur.blend == Blend::Coverage),
             ("PARABOLOID", fur.shape == Shape::Paraboloid),
             ("HAS_LOCKS", fur.clump > 0.0 || fur.curl > 0.0),
             ("FORCE_IN_OBJECT", fur.force_space == ForceSpace::Object),
