@@ -57,7 +57,7 @@ vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
     return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
 }
 
-// Locks: strands gather towards the middle of their lock and twist around it, more so at the tip. Gives the root
+// Locks: strands gather towards the middle of their lock and coil in step with it, more so at the tip. Gives the root
 // that the strand passing here grew from.
 vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
     const float lock_size = 9.0;
@@ -79,9 +79,11 @@ vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
     }
     vec3 from_middle = -(middle - dot(middle, normal) * normal) * lock_size;
     float gather = 1.0 / max(1.0 - 0.85 * fur.clump * height, 0.1);
-    float turn = fur.curl * 6.28318531 * height * (own_random < 0.5 ? -1.0 : 1.0) * (0.6 + 0.4 * own_random);
-    vec3 twisted = from_middle * cos(turn) + cross(normal, from_middle) * sin(turn);
-    return position_in_cells + (twisted * gather - from_middle);
+    vec3 root = position_in_cells + from_middle * (gather - 1.0);
+    // A coil of two turns whose radius grows to a cell; at the skin it is nought, so roots hold still.
+    vec3 side = normalize(abs(normal.y) < 0.9 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    float turn = 12.5663706 * (own_random < 0.5 ? -height : height) + 6.28318531 * own_random;
+    return root + fur.curl * height * (cos(turn) * side + sin(turn) * cross(normal, side));
 }
 
 void main() {

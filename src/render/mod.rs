@@ -106,10 +106,10 @@ impl Shot {
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
-        let bounds = scene::world_bounds(asset, scene_index, &pose);
+        let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
-            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, bounds)?,
+            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
             lighting: scene::lighting(asset, scene_index, &pose),
             plan: Plan::new(scene, instances, options),
             pose,

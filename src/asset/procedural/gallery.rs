@@ -40,7 +40,7 @@ pub fn gallery() -> Asset {
 
     // Key from the upper left, a cool rim from behind that draws the hair tips, a weak warm fill from the right.
     let key = LightKind::Directional;
-    set.light("key light", key, [1.0, 0.96, 0.9], 0.9 * PI, Vec3::new(-1.2, 1.9, 1.4), Vec3::new(0.0, 0.2, 0.0));
+    set.light("key light", key, [1.0, 0.96, 0.9], 1.25 * PI, Vec3::new(-1.2, 1.9, 1.4), Vec3::new(0.0, 0.2, 0.0));
     let rim = LightKind::Spot { range_m: None, inner_angle: 0.35, outer_angle: 0.7 };
     set.light("rim light", rim, [0.8, 0.9, 1.0], 8.0, Vec3::new(0.9, 1.35, -1.0), Vec3::new(0.0, 0.25, 0.0));
     let fill = LightKind::Point { range_m: None };
