@@ -19,7 +19,7 @@ pub fn image(name: &str) -> Option<Image> {
 /// Pixels of each side.
 const SIZE: u32 = 512;
 /// Rosettes along each side of the tile.
-const CELLS: i32 = 6;
+const CELLS: i32 = 4;
 
 /// Coat of a leopard: broken rings of dark spots with a warmer heart, as weights in R (1 = spot).
 ///
