@@ -22,13 +22,25 @@ pub fn run(arguments: &InspectArguments) -> Result<()> {
     let scene = arguments.scene.load()?;
     let options = arguments.scene.frame_options(&scene)?;
     let shot = Shot::new(&scene, &options)?;
-    if arguments.json { json::print(&as_json(&scene, &shot.plan, options.size, options.msaa)) } else { print_text(&scene, &shot.plan); Ok(()) }
+    if arguments.json {
+        json::print(&as_json(&scene, &shot.plan, options.size, options.msaa))
+    } else {
+        print_text(&scene, &shot.plan);
+        Ok(())
+    }
 }
 
 fn as_json(scene: &Scene, plan: &Plan, size: [u32; 2], samples: u32) -> Value {
-    let pipelines: Vec<Value> = plan.pipelines.iter().map(pipeline).chain(plan.compute_pipelines.iter().map(|spec| {
-        json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } })
-    })).collect();
+    let pipelines: Vec<Value> = plan
+        .pipelines
+        .iter()
+        .map(pipeline)
+        .chain(
+            plan.compute_pipelines
+                .iter()
+                .map(|spec| json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } })),
+        )
+        .collect();
     let textures: Vec<Value> = plan.textures.iter().map(|texture| {
         json!({ "name": scene.asset.images[texture.image].name, "format": format(texture), "bytes": texture_bytes(&scene.asset, texture) })
     }).collect();
@@ -58,14 +70,23 @@ fn print_text(scene: &Scene, plan: &Plan) {
     for spec in &plan.compute_pipelines {
         println!("  {} ({})", spec.shader, constants_text(&spec.constants));
     }
-    println!("vertex streams: {} bytes, indices: {} bytes", plan.stream_bytes(&scene.asset), plan.index_bytes(&scene.asset));
+    println!(
+        "vertex streams: {} bytes, indices: {} bytes",
+        plan.stream_bytes(&scene.asset),
+        plan.index_bytes(&scene.asset)
+    );
     for ((mesh, primitive), streams) in &plan.streams {
         let name = scene.asset.meshes[*mesh].name.as_deref().unwrap_or("mesh");
         println!("  {name}.{primitive}: {streams:?}");
     }
     println!("textures");
     for texture in &plan.textures {
-        println!("  {} ({}, {} bytes)", scene.asset.images[texture.image].name, format(texture), texture_bytes(&scene.asset, texture));
+        println!(
+            "  {} ({}, {} bytes)",
+            scene.asset.images[texture.image].name,
+            format(texture),
+            texture_bytes(&scene.asset, texture)
+        );
     }
     println!("left out");
     for left in &plan.left_out {

@@ -166,7 +166,14 @@ fn spread(values: &[f64]) -> (f64, f64, f64) {
     (sorted[0], median, sorted[sorted.len() - 1])
 }
 
-fn summary(renderer: &Renderer, scene: &Scene, path: &Path, options: &FrameOptions, report: &FrameReport, times: &FrameTimes) -> Value {
+fn summary(
+    renderer: &Renderer,
+    scene: &Scene,
+    path: &Path,
+    options: &FrameOptions,
+    report: &FrameReport,
+    times: &FrameTimes,
+) -> Value {
     let info = renderer.gpu().info();
     let (min, median, max) = spread(times.frames_ms);
     let passes: Vec<Value> = report
@@ -190,7 +197,8 @@ fn summary(renderer: &Renderer, scene: &Scene, path: &Path, options: &FrameOptio
             })
         })
         .collect();
-    let left_out: Vec<Value> = report.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect();
+    let left_out: Vec<Value> =
+        report.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect();
     json!({
         "device": { "name": info.name, "driver": info.driver, "api": info.api },
         "image": { "path": path, "width": options.size[0], "height": options.size[1] },
@@ -216,7 +224,8 @@ fn host_peak_bytes() -> Option<u64> {
 }
 
 fn print_text(path: &Path, count: usize, report: &FrameReport, frames_ms: &[f64], bench: bool) {
-    let written = if count == 1 { path.display().to_string() } else { format!("{count} frames, the last {}", path.display()) };
+    let written =
+        if count == 1 { path.display().to_string() } else { format!("{count} frames, the last {}", path.display()) };
     let (min, median, max) = spread(frames_ms);
     println!("{written}");
     if bench || count > 1 {
@@ -226,7 +235,10 @@ fn print_text(path: &Path, count: usize, report: &FrameReport, frames_ms: &[f64]
     }
     for pass in &report.passes {
         let time = pass.gpu_ms.map_or_else(|| "not timed".to_owned(), |ms| format!("{ms:.2} ms"));
-        println!("  {:<12} {time:>12}  {} draws, {} instances, {} triangles", pass.name, pass.draws, pass.instances, pass.triangles);
+        println!(
+            "  {:<12} {time:>12}  {} draws, {} instances, {} triangles",
+            pass.name, pass.draws, pass.instances, pass.triangles
+        );
     }
     println!("device memory: {:.1} MiB", report.memory.device_bytes as f64 / f64::from(1 << 20));
 }

@@ -103,7 +103,8 @@ impl SceneArguments {
             None => Scene::gallery(),
         };
         if let Some(preset) = &self.preset {
-            let (name, material) = preset.split_once('=').map_or((preset.as_str(), None), |(name, material)| (name, Some(material)));
+            let (name, material) =
+                preset.split_once('=').map_or((preset.as_str(), None), |(name, material)| (name, Some(material)));
             scene.apply(&Look::preset(name, material)?, Path::new("."), &limits)?;
         }
         if let Some(path) = &self.look {
@@ -155,7 +156,14 @@ impl SceneArguments {
                 None => CameraChoice::Named(GALLERY_CAMERA.to_owned()),
             };
         }
-        let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
-        CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG) }
+        let (theta_deg, phi_deg, radius_m) =
+            self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
+        CameraChoice::Orbit {
+            theta_deg,
+            phi_deg,
+            radius_m,
+            target: self.target,
+            fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG),
+        }
     }
 }

@@ -15,7 +15,16 @@ use crate::scene::Scene;
 ///
 /// # Errors
 /// When the device is out of memory or lost.
-pub fn record(gpu: &Gpu, encoder: &mut Encoder, scene: &Scene, shot: &Shot, options: &FrameOptions, resources: &mut Resources, targets: &Targets, target: &Image) -> Result<(), RenderError> {
+pub fn record(
+    gpu: &Gpu,
+    encoder: &mut Encoder,
+    scene: &Scene,
+    shot: &Shot,
+    options: &FrameOptions,
+    resources: &mut Resources,
+    targets: &Targets,
+    target: &Image,
+) -> Result<(), RenderError> {
     let plan = &shot.plan;
     resources.prepare(scene, plan)?;
     let data = FrameData::new(gpu, resources, scene, shot, options)?;
@@ -24,11 +33,16 @@ pub fn record(gpu: &Gpu, encoder: &mut Encoder, scene: &Scene, shot: &Shot, opti
         deform::record(encoder, scene, plan, resources, &data);
     }
     let far_to_near = draws::far_to_near(&plan.transparent, scene, plan, &shot.camera);
-    let mut lists: Vec<(Pass, &[Draw])> = vec![(Pass::Opaque, &plan.opaque), (Pass::Fur, &plan.fur), (Pass::Transparent, &far_to_near)];
+    let mut lists: Vec<(Pass, &[Draw])> =
+        vec![(Pass::Opaque, &plan.opaque), (Pass::Fur, &plan.fur), (Pass::Transparent, &far_to_near)];
     lists.retain(|(pass, _)| plan.passes.contains(pass));
     let last = lists.len() - 1;
     for (index, (pass, list)) in lists.into_iter().enumerate() {
-        let (load_color, load_depth) = if index == 0 { (Load::Clear(clear_color(options, shot)), Load::Clear([0.0; 4])) } else { (Load::Keep, Load::Keep) };
+        let (load_color, load_depth) = if index == 0 {
+            (Load::Clear(clear_color(options, shot)), Load::Clear([0.0; 4]))
+        } else {
+            (Load::Keep, Load::Keep)
+        };
         let resolve = targets.resolved.as_ref().filter(|_| index == last);
         let color = [ColorTarget { image: &targets.color, load: load_color, store: resolve.is_none(), resolve }];
         let depth = Some(DepthTarget { image: &targets.depth, load: load_depth, store: index != last });

@@ -101,7 +101,9 @@ impl Shot {
         let asset = &scene.asset;
         let scene_index = options.scene.unwrap_or(asset.default_scene);
         let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {
-            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => options.time_s.rem_euclid(duration_s),
+            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => {
+                options.time_s.rem_euclid(duration_s)
+            }
             _ => options.time_s,
         };
         let pose = scene::pose(asset, options.animation, time_s);
@@ -151,7 +153,8 @@ impl Renderer {
 
     /// Text of every pipeline made so far: whole state and interface, sorted.
     pub fn pipeline_descriptions(&self) -> Vec<String> {
-        let mut all: Vec<String> = self.resources.pipelines().map(|pipeline| pipeline.description().to_owned()).collect();
+        let mut all: Vec<String> =
+            self.resources.pipelines().map(|pipeline| pipeline.description().to_owned()).collect();
         all.sort();
         all
     }
@@ -168,7 +171,12 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Shot::new`] and of the device.
-    pub fn render_reported(&mut self, scene: &Scene, options: &FrameOptions, keep_radiance: bool) -> Result<(Picture, FrameReport), RenderError> {
+    pub fn render_reported(
+        &mut self,
+        scene: &Scene,
+        options: &FrameOptions,
+        keep_radiance: bool,
+    ) -> Result<(Picture, FrameReport), RenderError> {
         let start = Instant::now();
         let shot = Shot::new(scene, options)?;
         let target = self.take_picture_target(options.size)?;
@@ -201,12 +209,25 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Shot::new`] and of the device.
-    pub fn record(&mut self, encoder: &mut Encoder, scene: &Scene, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+    pub fn record(
+        &mut self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        options: &FrameOptions,
+        target: &Image,
+    ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
         self.record_shot(encoder, scene, &shot, options, target)
     }
 
-    fn record_shot(&mut self, encoder: &mut Encoder, scene: &Scene, shot: &Shot, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+    fn record_shot(
+        &mut self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        target: &Image,
+    ) -> Result<(), RenderError> {
         if self.scene.replace(scene.id()) != Some(scene.id()) {
             self.resources.forget_scene();
         }
@@ -252,7 +273,12 @@ fn decode_radiance(format: HdrFormat, bytes: &[u8]) -> Vec<Vec4> {
             .chunks_exact(4)
             .map(|texel| {
                 let word = u32::from_le_bytes([texel[0], texel[1], texel[2], texel[3]]);
-                Vec4::new(small_float(word & 0x7ff, 6), small_float((word >> 11) & 0x7ff, 6), small_float(word >> 22, 5), 1.0)
+                Vec4::new(
+                    small_float(word & 0x7ff, 6),
+                    small_float((word >> 11) & 0x7ff, 6),
+                    small_float(word >> 22, 5),
+                    1.0,
+                )
             })
             .collect(),
     }

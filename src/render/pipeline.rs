@@ -101,7 +101,8 @@ impl PipelineSpec {
         let blend = standard.alpha_mode == AlphaMode::Blend;
 
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("COLOR", color)];
-        let fragment_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("DETAIL", detail), ("COLOR", color)];
+        let fragment_defines =
+            [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("DETAIL", detail), ("COLOR", color)];
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));

@@ -35,8 +35,22 @@ pub struct CoatReport {
 }
 
 impl FrameReport {
-    pub(super) fn new(scene: &Scene, plan: &Plan, times: FrameTimes, frame_ms: f64, pipelines_ms: f64, memory: MemoryReport) -> Self {
-        Self { frame_ms, pipelines_ms, passes: times.passes, fur: coats(scene, plan), memory, left_out: plan.left_out.clone() }
+    pub(super) fn new(
+        scene: &Scene,
+        plan: &Plan,
+        times: FrameTimes,
+        frame_ms: f64,
+        pipelines_ms: f64,
+        memory: MemoryReport,
+    ) -> Self {
+        Self {
+            frame_ms,
+            pipelines_ms,
+            passes: times.passes,
+            fur: coats(scene, plan),
+            memory,
+            left_out: plan.left_out.clone(),
+        }
     }
 }
 

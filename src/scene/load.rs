@@ -11,8 +11,8 @@ use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// Poses of a clip that its outline is taken from.
 const OUTLINE_POSES: usize = 16;
@@ -42,7 +42,8 @@ impl Scene {
 
     /// The embedded gallery: what the program is for, by formulas alone.
     pub fn gallery() -> Self {
-        Self::from_asset(asset::procedural::gallery()).unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+        Self::from_asset(asset::procedural::gallery())
+            .unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
     }
 
     /// Dresses plain data with the materials that it names.
@@ -50,7 +51,9 @@ impl Scene {
     /// # Errors
     /// When a material's `vair` keys are wrong.
     pub fn from_asset(mut asset: Asset) -> Result<Self, SceneError> {
-        let materials = material::from_asset(&mut asset, &mut |file| Err(format!("{file}: a scene made in memory has no folder; use a procedural texture")))?;
+        let materials = material::from_asset(&mut asset, &mut |file| {
+            Err(format!("{file}: a scene made in memory has no folder; use a procedural texture"))
+        })?;
         Ok(Self::new(asset, materials))
     }
 
@@ -74,7 +77,13 @@ impl Scene {
     fn new(mut asset: Asset, materials: Vec<Material>) -> Self {
         static NEXT_ID: AtomicU64 = AtomicU64::new(1);
         add_missing_tangents(&mut asset, &materials);
-        Self { id: NEXT_ID.fetch_add(1, Ordering::Relaxed), asset, materials, radii_m: Mutex::default(), outlines: Mutex::default() }
+        Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            asset,
+            materials,
+            radii_m: Mutex::default(),
+            outlines: Mutex::default(),
+        }
     }
 
     /// Tells scenes apart; no two have the same.

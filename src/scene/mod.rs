@@ -21,9 +21,9 @@ pub use choice::{find_animation, find_camera, find_scene, find_variant};
 pub use deform::deform;
 pub use error::SceneError;
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
-pub use load::Scene;
 pub use light::{
     AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
     lighting,
 };
+pub use load::Scene;
 pub use shell::{shell_directions, shell_directions_of_mesh};

@@ -102,7 +102,15 @@ pub fn variance(roughness: f64) -> f64 {
 
 /// Radiance per unit irradiance of a strand, one colour channel.
 #[allow(clippy::too_many_arguments)] // the shader's own list
-pub fn scattering(color: f64, normal: DVec3, tangent: DVec3, to_eye: DVec3, to_light: DVec3, specular: f64, variance: f64) -> f64 {
+pub fn scattering(
+    color: f64,
+    normal: DVec3,
+    tangent: DVec3,
+    to_eye: DVec3,
+    to_light: DVec3,
+    specular: f64,
+    variance: f64,
+) -> f64 {
     let wrap = 0.3;
     let (reflected, returned, tilt) = (0.10 * specular, 0.30 * specular, 0.08);
     let across = (1.0 - tangent.dot(to_light).powi(2)).max(0.0).sqrt();

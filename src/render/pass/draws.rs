@@ -15,7 +15,14 @@ use crate::shader::layout::ObjectDraw;
 use ash::vk::{CullModeFlags, FrontFace};
 
 /// Records draws in their order.
-pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan, resources: &Resources, data: &FrameData) {
+pub fn record(
+    pass: &mut RenderPass,
+    draws: &[Draw],
+    scene: &Scene,
+    plan: &Plan,
+    resources: &Resources,
+    data: &FrameData,
+) {
     let mut bound = None;
     for draw in draws {
         let spec = &plan.pipelines[draw.pipeline];

@@ -11,7 +11,15 @@ use crate::shader::layout::TonemapDraw;
 use glam::Vec3;
 
 /// Records the pass.
-pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3, pipeline: &Pipeline, group: &BindGroup, hdr: &Image, target: &Image) {
+pub fn record(
+    encoder: &mut Encoder,
+    options: &FrameOptions,
+    surroundings: Vec3,
+    pipeline: &Pipeline,
+    group: &BindGroup,
+    hdr: &Image,
+    target: &Image,
+) {
     let draw = TonemapDraw {
         background: match options.background {
             Background::Environment => surroundings,
@@ -25,7 +33,8 @@ pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3,
         ..Default::default()
     };
     let color = [ColorTarget { image: target, load: Load::Discard, store: true, resolve: None }];
-    let desc = RenderPassDesc { name: Pass::Tonemap.name(), size: options.size, color: &color, depth: None, sampled: &[hdr] };
+    let desc =
+        RenderPassDesc { name: Pass::Tonemap.name(), size: options.size, color: &color, depth: None, sampled: &[hdr] };
     encoder.render_pass(&desc, |pass| {
         pass.pipeline(pipeline);
         pass.bind(0, group);
