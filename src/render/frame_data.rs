@@ -3,10 +3,11 @@
 use super::Shot;
 use super::material::{CoatSize, fur_uniforms};
 use super::options::FrameOptions;
+use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan, fur_maps};
 use super::resources::Resources;
 use super::stream::Stream;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
 use crate::material::Material;
 use crate::scene::{Camera, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
@@ -14,6 +15,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat3, Mat4};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// What one frame reads and no other.
 pub struct FrameData {
@@ -26,6 +28,10 @@ pub struct FrameData {
     pub deform_groups: Vec<BindGroup>,
     /// Frame and object bind groups by pipeline.
     pub shared_groups: HashMap<usize, (BindGroup, BindGroup)>,
+    /// The tone-mapping pipeline for this frame's target.
+    pub tonemap: PipelineSpec,
+    /// Its bind group.
+    pub tonemap_group: BindGroup,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -41,6 +47,8 @@ impl FrameData {
         scene: &Scene,
         shot: &Shot,
         options: &FrameOptions,
+        hdr: &Image,
+        tonemap: PipelineSpec,
     ) -> Result<Self, GpuError> {
         let Shot { plan, pose, camera, lighting } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
@@ -48,7 +56,11 @@ impl FrameData {
         let frame = frame_uniforms(camera, lighting, options);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
+        let tonemap_group =
+            gpu.bind_group(resources.pipeline(&tonemap), 0, "tonemap", &[("hdr", Resource::Texture(hdr))])?;
         let mut data = Self {
+            tonemap,
+            tonemap_group,
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
             lights: if lit {
                 Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)
@@ -126,12 +138,14 @@ impl FrameData {
                 ("TargetStream", Resource::Buffer(&target)),
             ];
             if let (Some(skin), Some((indices, weights))) = (instance.skin, resources.influences.get(&index)) {
-                if !joints.contains_key(&skin) {
-                    let matrices: Vec<[[f32; 4]; 4]> =
-                        joint_matrices(&scene.asset, skin, pose).iter().map(Mat4::to_cols_array_2d).collect();
-                    joints.insert(skin, filled(gpu, "joints", storage, &matrices)?);
-                }
-                offered.push(("JointList", Resource::Buffer(&joints[&skin])));
+                let buffer = match joints.entry(skin) {
+                    Entry::Occupied(known) => known.into_mut(),
+                    Entry::Vacant(new) => {
+                        let matrices = joint_matrices(&scene.asset, skin, pose);
+                        new.insert(filled(gpu, "joints", storage, &matrices)?)
+                    }
+                };
+                offered.push(("JointList", Resource::Buffer(buffer)));
                 offered.push(("InfluenceList", Resource::Buffer(indices)));
                 offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
             }

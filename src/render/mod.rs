@@ -28,6 +28,8 @@ pub use stream::Stream;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
+use frame::Frame;
+use frame_data::FrameData;
 use glam::Vec4;
 use resources::Resources;
 use std::path::PathBuf;
@@ -240,7 +242,12 @@ impl Renderer {
             None => Targets::new(&self.gpu, options)?,
         };
         let targets = self.targets.insert(targets);
-        frame::record(&self.gpu, encoder, scene, shot, options, &mut self.resources, targets, target)
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
+        self.resources.prepare(scene, &shot.plan)?;
+        self.resources.make_pipeline(&tonemap)?;
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, options, targets.hdr(), tonemap)?;
+        Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target }.record(encoder);
+        Ok(())
     }
 
     /// The picture's image; put it back into `self.picture` for the next frame.
