@@ -1,7 +1,7 @@
 //! vair renders what people wear: fur and cloth, on Vulkan.
 //!
 //! Rooms, each seeing only those before it:
-//! [`math`] <- [`gpu`], [`asset`], [`shader`], [`profile`] <- [`material`] <- [`scene`] <- [`render`].
+//! [`math`] <- [`gpu`], [`asset`], [`shader`] <- [`material`] <- [`scene`] <- [`render`].
 
 #[allow(unsafe_code)]
 pub mod gpu;
@@ -9,7 +9,6 @@ pub mod gpu;
 pub mod asset;
 pub mod material;
 pub mod math;
-pub mod profile;
 pub mod render;
 pub mod scene;
 pub mod shader;

@@ -8,6 +8,7 @@
 #include "uv.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
+#include "lock.glsl"
 #include "coverage.glsl"
 
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
@@ -57,35 +58,6 @@ vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
     return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
 }
 
-// Locks: strands gather towards the middle of their lock and coil in step with it, more so at the tip. Gives the root
-// that the strand passing here grew from.
-vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
-    const float lock_size = 9.0;
-    vec3 in_locks = position_in_cells / lock_size;
-    vec3 corner = floor(in_locks - 0.5);
-    vec3 middle = vec3(0.0);
-    float nearest = 1e9;
-    float own_random = 0.0;
-    for (int index = 0; index < 8; ++index) {
-        vec3 cell = corner + vec3(float(index & 1), float((index >> 1) & 1), float(index >> 2));
-        vec3 random = hash_cell(ivec3(cell) + 7919);
-        vec3 offset = cell + 0.5 + (random * 2.0 - 1.0) * STRAND_JITTER - in_locks;
-        float distance_squared = dot(offset, offset);
-        if (distance_squared < nearest) {
-            nearest = distance_squared;
-            middle = offset;
-            own_random = random.x;
-        }
-    }
-    vec3 from_middle = -(middle - dot(middle, normal) * normal) * lock_size;
-    float gather = 1.0 / max(1.0 - 0.85 * fur.clump * height, 0.1);
-    vec3 root = position_in_cells + from_middle * (gather - 1.0);
-    // A coil of two turns whose radius grows to a cell; at the skin it is nought, so roots hold still.
-    vec3 side = normalize(abs(normal.y) < 0.9 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
-    float turn = 12.5663706 * (own_random < 0.5 ? -height : height) + 6.28318531 * own_random;
-    return root + fur.curl * height * (cos(turn) * side + sin(turn) * cross(normal, side));
-}
-
 void main() {
     float height = height_and_length.x;
     vec3 normal = normalize(root_direction_in_world);
@@ -131,7 +103,7 @@ void main() {
         float seen_length = min(half_length, STRAND_SEGMENT);
         half_segment *= seen_length / max(half_length, 1e-6);
         vec3 in_cells = root_in_rest * cells_per_unit;
-        if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height); }
+        if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height, fur.clump, fur.curl); }
         StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
         slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
         opacity = strand_opacity(field.profile, threshold, slope,

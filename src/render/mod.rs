@@ -28,9 +28,9 @@ pub use stream::Stream;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
-use frame::Frame;
 use frame_data::FrameData;
 use glam::Vec4;
+use pass::Frame;
 use resources::Resources;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -246,7 +246,8 @@ impl Renderer {
         self.resources.prepare(scene, &shot.plan)?;
         self.resources.make_pipeline(&tonemap)?;
         let data = FrameData::new(&self.gpu, &self.resources, scene, shot, options, targets.hdr(), tonemap)?;
-        Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target }.record(encoder);
+        let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
+        frame::record(encoder, &frame);
         Ok(())
     }
 

@@ -10,6 +10,7 @@ pub mod coverage;
 pub mod ggx;
 pub mod hash;
 pub mod light;
+pub mod lock;
 pub mod standard;
 pub mod strand;
 pub mod tonemap;

@@ -4,8 +4,8 @@
 //! world space (skinned) or object space (morphed alone). Cost: one invocation a vertex and stream.
 //! Twin: `scene::deform`.
 
+use super::Frame;
 use crate::gpu::Encoder;
-use crate::render::frame::Frame;
 use crate::render::plan::Pass;
 use crate::shader::layout::DeformDraw;
 

@@ -3,9 +3,9 @@
 //! In: vertex streams, materials, frame data. Out: linear HDR colour (premultiplied alpha) and reversed depth.
 //! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first.
 
+use super::Frame;
 use crate::asset::Topology;
 use crate::gpu::RenderPass;
-use crate::render::frame::Frame;
 use crate::render::pipeline::shader;
 use crate::render::plan::{Draw, DrawKind};
 use crate::render::stream::inputs;

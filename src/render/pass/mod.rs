@@ -1,5 +1,31 @@
-//! The passes, one file each.
+//! The passes, one file each, and what they share.
 
 pub mod deform;
 pub mod draws;
 pub mod tonemap;
+
+use super::Shot;
+use super::frame_data::FrameData;
+use super::options::FrameOptions;
+use super::resources::Resources;
+use super::targets::Targets;
+use crate::gpu::Image;
+use crate::scene::Scene;
+
+/// What the passes of one frame share.
+pub struct Frame<'a> {
+    /// What is shown.
+    pub scene: &'a Scene,
+    /// When and through whose eye, and what it takes.
+    pub shot: &'a Shot,
+    /// How.
+    pub options: &'a FrameOptions,
+    /// What the scene keeps on the device.
+    pub resources: &'a Resources,
+    /// What this frame alone reads.
+    pub data: &'a FrameData,
+    /// HDR colour and depth.
+    pub targets: &'a Targets,
+    /// The picture.
+    pub target: &'a Image,
+}

@@ -4,8 +4,8 @@
 //! a transparent background, the coverage (colour not premultiplied). Cost: one texel fetch a pixel.
 //! Twin: `material::reference::tonemap`.
 
+use super::Frame;
 use crate::gpu::{ColorTarget, Encoder, Load, RenderPassDesc};
-use crate::render::frame::Frame;
 use crate::render::options::Background;
 use crate::render::plan::Pass;
 use crate::shader::layout::TonemapDraw;

@@ -1,0 +1,86 @@
+//! Twin of `lock.glsl`: locks of strands.
+
+use super::hash;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Strand spacings across a lock.
+pub const SIZE: f64 = 9.0;
+/// Jitter of a lock's middle, in locks.
+pub const JITTER: f64 = 0.25;
+
+/// The middle of the lock that a place belongs to, relative to it and in locks, and the lock's random number.
+pub fn middle(in_locks: DVec3) -> (DVec3, f64) {
+    let home = in_locks.floor();
+    let mut nearest = (DVec3::INFINITY, 0.0);
+    for index in 0..125 {
+        let step = DVec3::new(f64::from(index % 5), f64::from(index / 5 % 5), f64::from(index / 25)) - 2.0;
+        let cell = home + step;
+        let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32 + 7919));
+        let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - in_locks;
+        if offset.length_squared() < nearest.0.length_squared() {
+            nearest = (offset, random[0]);
+        }
+    }
+    nearest
+}
+
+/// Root that the strand passing at `position` (in strand spacings) and `height` grew from.
+pub fn root(position: DVec3, normal: DVec3, height: f64, clump: f64, curl: f64) -> DVec3 {
+    let (middle, random) = middle(position / SIZE);
+    let from_middle = (middle.dot(normal) * normal - middle) * SIZE;
+    let gather = 1.0 / (1.0 - 0.85 * clump * height).max(0.1);
+    let away = if normal.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
+    let side = normal.cross(away).normalize();
+    let (sine, cosine) = (2.0 * TAU * if random < 0.5 { -height } else { height } + TAU * random).sin_cos();
+    position + from_middle * (gather - 1.0) + curl * height * (cosine * side + sine * normal.cross(side))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn places() -> impl Iterator<Item = (DVec3, DVec3)> {
+        (0..500).map(|index| {
+            let [x, y, z] = hash::cell([index, 1, 2]);
+            let normal = DVec3::new(x - 0.5, y - 0.5, z - 0.5).normalize();
+            (DVec3::new(x, y, z) * 80.0 - 40.0, normal)
+        })
+    }
+
+    #[test]
+    fn roots_hold_still_and_strands_stay_near_them() {
+        for (position, normal) in places() {
+            assert_eq!(root(position, normal, 0.0, 1.0, 1.0), position);
+            for height in [0.3, 1.0] {
+                let moved = root(position, normal, height, 0.0, 1.0) - position;
+                assert!((moved.length() - height).abs() < 1e-12, "a coil's radius is its height");
+                assert!(moved.dot(normal).abs() < 1e-12, "strands are looked up along the surface");
+            }
+        }
+    }
+
+    #[test]
+    fn a_clump_draws_tips_to_the_middle() {
+        for (position, normal) in places() {
+            let (middle, _) = middle(position / SIZE);
+            let from_middle = (middle.dot(normal) * normal - middle) * SIZE;
+            let grew_from = root(position, normal, 1.0, 1.0, 0.0) - position;
+            // What stands here at the tip grew farther out, by the same direction.
+            assert!((grew_from - from_middle * (1.0 / 0.15 - 1.0)).length() < 1e-9 * SIZE);
+        }
+    }
+
+    #[test]
+    fn the_eight_nearest_locks_are_enough() {
+        let mut differ = 0;
+        for (position, _) in places() {
+            let in_locks = position / SIZE;
+            let corner = (in_locks - 0.5).floor();
+            let (nearest, _) = middle(in_locks);
+            let cell = (nearest + in_locks).floor() - corner;
+            differ += i32::from(cell.min_element() < 0.0 || cell.max_element() > 1.0);
+        }
+        assert!(differ <= 5, "{differ} of 500 places have a nearer lock than the eight that the shader looks at");
+    }
+}
