@@ -78,10 +78,10 @@
 //! a file says can panic, read outside the file's folder, or allocate beyond [`LoadOptions::memory_limit_bytes`].
 //!
 //! # Sources
-//! Shells: Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". Strands: Kajiya and Kay 1989, "Rendering Fur
-//! with Three Dimensional Textures". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction"; Heitz 2014,
-//! "Understanding the Masking-Shadowing Function". Files: Khronos 2021, "glTF 2.0 Specification". Each function cites
-//! its own.
+//! Shells: Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". Strands: Marschner et al. 2003, "Light
+//! Scattering from Human Hair Fibers". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction through Rough
+//! Surfaces"; Turquin 2019, "Practical multiple scattering compensation for microfacet models". Files: Khronos 2021,
+//! "glTF 2.0 Specification". Each function cites its own.
 
 #[allow(unsafe_code)]
 pub mod gpu;

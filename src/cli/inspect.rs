@@ -15,7 +15,7 @@ pub struct InspectArguments {
     #[command(flatten)]
     scene: SceneArguments,
     /// Prints the JSON schema of look files, and nothing else.
-    #[arg(long, exclusive = true)]
+    #[arg(long)]
     schema: bool,
     /// Prints one JSON object.
     #[arg(long)]

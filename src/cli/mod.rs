@@ -71,16 +71,27 @@ fn parse_and_run() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            output::complain(&format!("{error:#}"));
+            output::complain(&in_one_line(&error));
             ExitCode::from(if error.is::<UsageError>() { USAGE } else { 1 })
         }
     }
 }
 
+/// The error and its causes. Many messages hold their cause's already: it is not said twice.
+fn in_one_line(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |line, cause| match line {
+        line if line.contains(&cause) => line,
+        line if line.is_empty() => cause,
+        line => format!("{line}: {cause}"),
+    })
+}
+
 /// The parser's paragraphs as one line, without the parts that repeat `--help`.
 fn usage_in_one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let kept: Vec<_> = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more")).collect();
+    let lines = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    // Nobody who mistypes an option means a file of that name.
+    let kept: Vec<_> = lines.filter(|line| !line.starts_with("tip: to pass")).collect();
     format!("{}; see --help", kept.join(" ").trim_start_matches("error: "))
 }
 

@@ -41,9 +41,12 @@ pub fn check_writable(path: &Path) -> Result<()> {
         bail!("{}: is a folder; name a file in it, such as {}", path.display(), path.join("vair.png").display());
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        bail!("{}: there is no folder {}; make it or choose another", path.display(), folder.display());
+    }
     tempfile::NamedTempFile::new_in(folder).map(drop).map_err(|error| {
-        // The temporary file's own name would only confuse.
-        let reason = std::io::Error::from(error.kind());
-        anyhow::anyhow!("{}: {reason}; choose a folder that exists and can be written", path.display())
+        // The temporary file's own name, which the error holds, would only confuse.
+        let reason = error.kind();
+        anyhow::anyhow!("{}: {reason}; choose a folder that can be written", path.display())
     })
 }
