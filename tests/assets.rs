@@ -50,7 +50,7 @@ fn every_model_renders_with_and_without_fur() {
 
     let mut renderer = Renderer::new(&GpuOptions { validate: true, ..GpuOptions::default() }).unwrap();
     let mut problems = Vec::new();
-    let (mut pictures, mut messages) = (0, 0);
+    let (mut pictures, mut messages, mut least_share) = (0, 0, 1.0f64);
     for path in &models {
         let name = path.strip_prefix(&folder).unwrap().display();
         for preset in [None, Some("fox")] {
@@ -66,7 +66,10 @@ fn every_model_renders_with_and_without_fur() {
                     Ok(picture) if covered_share(&picture) == 0.0 => {
                         problems.push(format!("{name} {preset:?} at {time_s} s: nothing is seen"));
                     }
-                    Ok(_) => pictures += 1,
+                    Ok(picture) => {
+                        pictures += 1;
+                        least_share = least_share.min(covered_share(&picture));
+                    }
                     Err(error) => problems.push(format!("{name} {preset:?} at {time_s} s: {error}")),
                 }
                 let all = renderer.gpu().validation_messages();
@@ -76,5 +79,7 @@ fn every_model_renders_with_and_without_fur() {
         }
     }
     assert!(problems.is_empty(), "{} problems\n{}", problems.len(), problems.join("\n"));
+    // Were the background not what this test takes it for, every pixel would count as covered.
+    assert!(least_share < 0.5, "{least_share}");
     println!("{} models, {pictures} pictures", models.len());
 }

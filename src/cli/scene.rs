@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
-use vair::asset::{Asset, LoadOptions};
 use vair::asset::procedural::GALLERY_CAMERA;
+use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
 use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
 use vair::scene::{self, CameraChoice, Scene, SceneError};
@@ -103,16 +103,14 @@ impl SceneArguments {
             let text = "--hdr-format b10g11r11 has no alpha; use rgba16f with --background transparent";
             return Err(UsageError(text).into());
         }
-        let limits = LoadOptions {
-            allow_outside: self.allow_outside,
-            memory_limit_bytes: self.memory_limit,
-        };
+        let limits = LoadOptions { allow_outside: self.allow_outside, memory_limit_bytes: self.memory_limit };
         let mut scene = match &self.scene_file {
             Some(path) => Scene::load(path, &limits)?,
             None => Scene::gallery(),
         };
         if let Some(preset) = &self.preset {
-            let (name, material) = preset.split_once('=').map_or((preset.as_str(), None), |(name, material)| (name, Some(material)));
+            let (name, material) =
+                preset.split_once('=').map_or((preset.as_str(), None), |(name, material)| (name, Some(material)));
             scene.apply(&Look::preset(name, material)?, Path::new("."), &limits)?;
         }
         if let Some(path) = &self.look {
@@ -178,7 +176,14 @@ impl SceneArguments {
                 None => CameraChoice::Named(GALLERY_CAMERA.to_owned()),
             };
         }
-        let (theta_deg, phi_deg, radius_m) = self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
-        CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target: self.target, fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG) }
+        let (theta_deg, phi_deg, radius_m) =
+            self.orbit.unwrap_or((scene::DEFAULT_THETA_DEG, scene::DEFAULT_PHI_DEG, None));
+        CameraChoice::Orbit {
+            theta_deg,
+            phi_deg,
+            radius_m,
+            target: self.target,
+            fov_deg: self.fov.unwrap_or(scene::DEFAULT_FOV_DEG),
+        }
     }
 }

@@ -60,7 +60,8 @@ pub fn background(text: &str) -> Result<Background, String> {
             if color.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
                 return Err("each of R,G,B must lie in [0, 1]".to_owned());
             }
-            let linear = |coded: f32| if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) };
+            let linear =
+                |coded: f32| if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) };
             Ok(Background::Color(Vec3::from_array(color.map(linear))))
         }
     }

@@ -61,9 +61,7 @@ fn property(parameter: &Parameter) -> Value {
         }
         number
     };
-    let list = |least: usize, most: usize| {
-        json!({ "type": "array", "items": number("number"), "minItems": least, "maxItems": most })
-    };
+    let list = |least: usize, most: usize| json!({ "type": "array", "items": number("number"), "minItems": least, "maxItems": most });
     let hexadecimal = |pattern: &str| json!({ "type": "string", "pattern": pattern });
     let mut property = match parameter.form {
         Form::Number => number("number"),

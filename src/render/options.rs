@@ -70,7 +70,10 @@ impl FrameOptions {
     pub(super) fn check(&self, asset: &Asset) -> Result<(), RenderError> {
         let wrong = |option, problem: String| Err(RenderError::Option { option, problem });
         if self.size.contains(&0) {
-            return wrong("size", format!("{}x{} has no pixels; both sides must be at least 1", self.size[0], self.size[1]));
+            return wrong(
+                "size",
+                format!("{}x{} has no pixels; both sides must be at least 1", self.size[0], self.size[1]),
+            );
         }
         if !matches!(self.msaa, 1 | 4) {
             return wrong("msaa", format!("{} samples are not supported; choose 1 or 4", self.msaa));

@@ -41,7 +41,8 @@ impl Scene {
 
     /// The embedded gallery: what the program is for, by formulas alone.
     pub fn gallery() -> Self {
-        Self::from_asset(asset::procedural::gallery()).unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+        Self::from_asset(asset::procedural::gallery())
+            .unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
     }
 
     /// Dresses plain data with the materials that it names.
@@ -49,7 +50,9 @@ impl Scene {
     /// # Errors
     /// When a material's `vair` keys are wrong.
     pub fn from_asset(mut asset: Asset) -> Result<Self, SceneError> {
-        let materials = material::from_asset(&mut asset, &mut |file| Err(format!("{file}: a scene made in memory has no folder; use a procedural texture")))?;
+        let materials = material::from_asset(&mut asset, &mut |file| {
+            Err(format!("{file}: a scene made in memory has no folder; use a procedural texture"))
+        })?;
         Ok(Self::new(asset, materials))
     }
 

@@ -30,7 +30,9 @@ fn render() {
     assert_eq!(report["ms"]["frame_count"], 3);
     for pass in report["passes"].as_array().unwrap() {
         has(pass, &["/name", "/draws"]);
-        assert!(pass.as_object().unwrap().contains_key("gpu_ms") && pass.as_object().unwrap().contains_key("fragments"));
+        assert!(
+            pass.as_object().unwrap().contains_key("gpu_ms") && pass.as_object().unwrap().contains_key("fragments")
+        );
     }
     let picture = image::open(folder.path().join("vair.png")).unwrap();
     assert_eq!((picture.width(), picture.height()), (16, 9));
@@ -61,9 +63,15 @@ fn schema() {
 fn devices_and_presets() {
     let folder = Folder::new();
     let devices = folder.run(["devices", "--json"]).success().json();
-    has(&devices, &["/devices/0/name", "/devices/0/driver", "/devices/0/api", "/devices/0/usable", "/devices/0/missing"]);
+    has(
+        &devices,
+        &["/devices/0/name", "/devices/0/driver", "/devices/0/api", "/devices/0/usable", "/devices/0/missing"],
+    );
     let presets = folder.run(["presets", "--json"]).success().json();
-    has(&presets, &["/presets/0/name", "/presets/0/parameters", "/parameters/fur/0/name", "/parameters/standard/0/help"]);
+    has(
+        &presets,
+        &["/presets/0/name", "/presets/0/parameters", "/parameters/fur/0/name", "/parameters/standard/0/help"],
+    );
     for arguments in [&["devices"][..], &["presets"], &["presets", "--parameters"]] {
         assert!(!folder.run(arguments).success().text().is_empty());
     }
