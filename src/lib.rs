@@ -1,14 +1,101 @@
-//! vair renders what people wear: fur and cloth, on Vulkan.
+//! vair renders fur with Vulkan, and says what that cost.
 //!
-//! Rooms, each seeing only those before it:
-//! [`math`] <- [`gpu`], [`asset`], [`shader`] <- [`material`] <- [`scene`] <- [`render`].
+//! It reads glTF, dresses materials from glTF, look files or presets, and draws them on any Vulkan 1.3 device, software
+//! devices included. A picture takes ten lines:
+//!
+//! ```no_run
+//! use vair::{FrameOptions, GpuOptions, LoadOptions, Look, Renderer, Scene};
+//!
+//! # fn main() -> Result<(), vair::Error> {
+//! let mut scene = Scene::load("fox.glb", &LoadOptions::default())?;
+//! scene.apply(&Look::preset("fox", None)?, ".".as_ref(), &LoadOptions::default())?;
+//!
+//! let mut renderer = Renderer::new(&GpuOptions::default())?;
+//! let options = FrameOptions { animation: Some(0), time_s: 0.5, ..FrameOptions::default() };
+//! renderer.render(&scene, &options)?.save("fox.png")?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A host with a device of its own lends it ([`Gpu::from_host`]) and gets the frame recorded into its own command
+//! buffer and image, between its own passes:
+//!
+//! ```no_run
+//! use vair::gpu::{HostDevice, Image, ImageUse, vk};
+//! use vair::{FrameOptions, Gpu, Renderer, Scene};
+//!
+//! # fn frame(
+//! #     host: HostDevice, command_buffer: vk::CommandBuffer, image: vk::Image, view: vk::ImageView,
+//! # ) -> Result<(), vair::Error> {
+//! // SAFETY: the host's handles belong together and outlive `gpu`.
+//! let gpu = unsafe { Gpu::from_host(host)? };
+//! let mut renderer = Renderer::with_gpu(gpu.clone())?;
+//! let scene = Scene::gallery();
+//! let options = FrameOptions { size: [1280, 720], ..FrameOptions::default() };
+//!
+//! let (format, layout) = (vk::Format::R8G8B8A8_SRGB, vk::ImageLayout::UNDEFINED);
+//! // SAFETY: image and view are alive and as described.
+//! let target = unsafe { Image::from_host(&gpu, "host", image, view, format, options.size, layout) };
+//! // SAFETY: the command buffer is recording; the host submits it once and then calls `host_idle`.
+//! let mut encoder = unsafe { gpu.encoder_on_host("vair", command_buffer) };
+//! renderer.record(&mut encoder, &scene, &options, &target)?;
+//! encoder.transition(&target, ImageUse::Host(vk::ImageLayout::PRESENT_SRC_KHR));
+//! encoder.finish_on_host()?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Rooms
+//! Each sees only those before it; a test keeps it so.
+//!
+//! | room | is |
+//! |---|---|
+//! | [`math`] | spaces and bounds |
+//! | [`shader`] | the compiled shaders and what reflection knows of them |
+//! | [`gpu`] | the only unsafe code; knows Vulkan, knows no fur |
+//! | [`asset`] | files to plain data; trusts nothing |
+//! | [`material`] | parameters declared once, looks, presets, and double-precision twins of the shading |
+//! | [`scene`] | pose, instances, lights, camera; pure functions |
+//! | [`render`] | what one frame needs, and the frame |
+//!
+//! # A frame
+//! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists
+//! draws, pipelines, vertex streams and textures, and what is left out and why. Nothing has touched the device yet:
+//! `vair inspect` prints just this. The resources then make what the plan lists and nothing else, and the frame records
+//! its passes: deform (skins and morphs, in compute), opaque, fur, transparent, tone mapping.
+//!
+//! # Conventions
+//! - World space is right-handed, Y up, metres, seconds. Angles are radians inside and degrees where a person writes
+//!   them. Names say space and unit: `normal_in_world`, `length_m`, `frame_ms`; matrices are `to_from_source`.
+//! - Clip space is Y up; depth runs from 1 at the near plane to 0.
+//! - Colours are linear RGB with the primaries of sRGB. Colour textures are decoded when sampled, data never.
+//!   Compositing is premultiplied.
+//! - A length in a look is metres, or a share of the mesh's bounding radius (`"4%"`).
+//!
+//! # Errors and trust
+//! Each room has one error enum; [`Error`] holds them all. A message is one line: what, where, what to do. Nothing that
+//! a file says can panic, read outside the file's folder, or allocate beyond [`LoadOptions::memory_limit_bytes`].
+//!
+//! # Sources
+//! Shells: Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". Strands: Marschner et al. 2003, "Light
+//! Scattering from Human Hair Fibers". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction through Rough
+//! Surfaces"; Turquin 2019, "Practical multiple scattering compensation for microfacet models". Files: Khronos 2021,
+//! "glTF 2.0 Specification". Each function cites its own.
 
 #[allow(unsafe_code)]
 pub mod gpu;
 
 pub mod asset;
+mod error;
 pub mod material;
 pub mod math;
 pub mod render;
 pub mod scene;
 pub mod shader;
+
+pub use asset::LoadOptions;
+pub use error::Error;
+pub use gpu::{Gpu, GpuOptions};
+pub use material::Look;
+pub use render::{FrameOptions, Picture, Renderer};
+pub use scene::Scene;

@@ -1,8 +1,8 @@
 //! Where a reference leads: data URIs, percent-decoding, and the rule that a file reads only
 //! inside its own folder.
 
-use super::AssetError;
 use super::context::Context;
+use super::{AssetError, LoadOptions};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD_PAD_INDIFFERENT;
 use percent_encoding::{percent_decode, percent_decode_str};
@@ -55,10 +55,12 @@ pub(super) fn read_file(path: &Path, limit_bytes: u64) -> Result<Option<Vec<u8>>
 /// Reads `relative` (a plain path, not percent-encoded) inside `folder`.
 ///
 /// # Errors
-/// [`AssetError::Outside`] for `..`, an absolute path or a link that leaves `folder`, unless
-/// `allow_outside`; [`AssetError::Io`] when the file cannot be read.
-pub fn read_inside(folder: &Path, relative: &str, allow_outside: bool) -> Result<Vec<u8>, AssetError> {
-    let path = match locate(folder, relative, allow_outside) {
+/// [`AssetError::Outside`] for `..`, an absolute path or a link that leaves `folder`, unless the options allow it;
+/// [`AssetError::Memory`] when the file is larger than the limit; [`AssetError::Io`] when it cannot be read.
+pub fn read_inside(folder: &Path, relative: &str, options: &LoadOptions) -> Result<Vec<u8>, AssetError> {
+    // The folder of a bare file name is the current one.
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let path = match locate(folder, relative, options.allow_outside) {
         Ok(path) => path,
         Err(Miss::Io(source)) => return Err(AssetError::Io { path: folder.join(relative), source }),
         Err(Miss::Outside) => {
@@ -69,8 +71,13 @@ pub fn read_inside(folder: &Path, relative: &str, allow_outside: bool) -> Result
             });
         }
     };
-    // Without a limit of its own: the largest size that a Vec can hold.
-    read_file(&path, isize::MAX as u64).map(Option::unwrap_or_default)
+    let limit_bytes = options.memory_limit_bytes;
+    read_file(&path, limit_bytes)?.ok_or_else(|| AssetError::Memory {
+        file: path.display().to_string(),
+        field: "file".to_owned(),
+        needed_bytes: std::fs::metadata(&path).map_or(u64::MAX, |data| data.len()),
+        limit_bytes,
+    })
 }
 
 /// Bytes behind a glTF `uri`: a data URI or a percent-encoded relative path.
@@ -135,7 +142,6 @@ fn decode_data(context: &Context, field: &str, data: &str) -> Result<Vec<u8>, As
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::asset::LoadOptions;
 
     fn context() -> Context {
         Context::new(Path::new("a.gltf"), &LoadOptions::default())
@@ -168,24 +174,28 @@ mod tests {
 
     #[test]
     fn reads_only_inside_the_folder() {
+        let closed = LoadOptions::default();
+        let open = LoadOptions { allow_outside: true, ..closed.clone() };
         let outer = tempfile::tempdir().unwrap();
         let folder = outer.path().join("in");
         std::fs::create_dir(&folder).unwrap();
         std::fs::write(outer.path().join("secret"), b"s").unwrap();
         std::fs::write(folder.join("ü b"), b"ok").unwrap();
-        assert_eq!(read_inside(&folder, "./ü b", false).unwrap(), b"ok");
+        assert_eq!(read_inside(&folder, "./ü b", &closed).unwrap(), b"ok");
         let absolute = outer.path().join("secret").display().to_string();
         for relative in ["../secret", "x/../../secret", absolute.as_str()] {
-            assert!(matches!(read_inside(&folder, relative, false), Err(AssetError::Outside { .. })), "{relative}");
+            assert!(matches!(read_inside(&folder, relative, &closed), Err(AssetError::Outside { .. })), "{relative}");
         }
-        assert_eq!(read_inside(&folder, "../secret", true).unwrap(), b"s");
-        assert!(matches!(read_inside(&folder, "missing", false), Err(AssetError::Io { .. })));
-        assert!(matches!(read_inside(&folder, "nul\0", false), Err(AssetError::Io { .. })));
-        assert!(matches!(read_inside(&folder, ".", false), Err(AssetError::Io { .. })));
+        assert_eq!(read_inside(&folder, "../secret", &open).unwrap(), b"s");
+        assert!(matches!(read_inside(&folder, "missing", &closed), Err(AssetError::Io { .. })));
+        assert!(matches!(read_inside(&folder, "nul\0", &closed), Err(AssetError::Io { .. })));
+        assert!(matches!(read_inside(&folder, ".", &closed), Err(AssetError::Io { .. })));
+        let small = LoadOptions { memory_limit_bytes: 1, ..closed.clone() };
+        assert!(matches!(read_inside(&folder, "ü b", &small), Err(AssetError::Memory { .. })));
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(outer.path().join("secret"), folder.join("link")).unwrap();
-            assert!(matches!(read_inside(&folder, "link", false), Err(AssetError::Outside { .. })));
+            assert!(matches!(read_inside(&folder, "link", &closed), Err(AssetError::Outside { .. })));
         }
     }
 }

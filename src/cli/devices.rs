@@ -1,6 +1,6 @@
 //! `vair devices`.
 
-use super::json;
+use super::output;
 use anyhow::Result;
 use clap::Args;
 use serde_json::json;
@@ -24,17 +24,18 @@ pub fn run(arguments: &DevicesArguments) -> Result<()> {
                 })
             })
             .collect();
-        return json::print(&json!({ "devices": list }));
+        return output::print_json(&json!({ "devices": list }));
     }
+    let mut text = String::new();
     for device in &devices {
-        println!("{} ({}, {}, Vulkan {})", device.name, device.kind, device.driver, device.api);
-        match device.missing.as_slice() {
-            [] => println!("    usable"),
-            missing => println!("    refused: it lacks {}", missing.join(", ")),
-        }
+        text += &format!("{} ({}, {}, Vulkan {})\n", device.name, device.kind, device.driver, device.api);
+        text += &match device.missing.as_slice() {
+            [] => "    usable\n".to_owned(),
+            missing => format!("    refused: it lacks {}\n", missing.join(", ")),
+        };
     }
     if devices.is_empty() {
-        println!("no Vulkan device; install a driver, for example the package mesa-vulkan-drivers");
+        text += "no Vulkan device; install a driver, for example the package mesa-vulkan-drivers\n";
     }
-    Ok(())
+    output::print(&text)
 }

@@ -1,100 +1,102 @@
 //! `vair inspect`.
 
-use super::json;
+use super::output;
 use super::scene::SceneArguments;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use vair::asset::Asset;
-use vair::render::{Pass, PipelineSpec, Plan, Shot, TextureUse};
+use vair::gpu::vk;
+use vair::render::{FrameOptions, HdrFormat, Pass, PipelineSpec, Plan, Shot, TextureUse};
 use vair::scene::Scene;
 
 #[derive(Debug, Args)]
 pub struct InspectArguments {
     #[command(flatten)]
     scene: SceneArguments,
+    /// Prints the JSON schema of look files, and nothing else.
+    #[arg(long)]
+    schema: bool,
     /// Prints one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub fn run(arguments: &InspectArguments) -> Result<()> {
+    if arguments.schema {
+        return output::print_json(&vair::material::look_schema());
+    }
     let scene = arguments.scene.load()?;
     let options = arguments.scene.frame_options(&scene)?;
-    let shot = Shot::new(&scene, &options)?;
+    let plan = Shot::new(&scene, &options)?.plan;
     if arguments.json {
-        json::print(&as_json(&scene, &shot.plan, options.size, options.msaa))
-    } else {
-        print_text(&scene, &shot.plan);
-        Ok(())
+        return output::print_json(&as_json(&scene, &plan, &options));
     }
+    output::print(&as_text(&scene, &plan, &options))
 }
 
-fn as_json(scene: &Scene, plan: &Plan, size: [u32; 2], samples: u32) -> Value {
-    let pipelines: Vec<Value> = plan
-        .pipelines
+fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
+    let passes = plan.passes.iter().map(|pass| json!({ "name": pass.name(), "draws": draws(plan, *pass) }));
+    let compute = plan
+        .compute_pipelines
         .iter()
-        .map(pipeline)
-        .chain(
-            plan.compute_pipelines
-                .iter()
-                .map(|spec| json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } })),
-        )
-        .collect();
-    let textures: Vec<Value> = plan.textures.iter().map(|texture| {
-        json!({ "name": scene.asset.images[texture.image].name, "format": format(texture), "bytes": texture_bytes(&scene.asset, texture) })
-    }).collect();
+        .map(|spec| json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } }));
+    let tonemap = tonemap(options);
+    let pipelines = compute.chain(plan.pipelines.iter().chain([&tonemap]).map(pipeline));
+    let textures = plan.textures.iter().map(|texture| {
+        let name = &scene.asset.images[texture.image].name;
+        json!({ "name": name, "format": format(texture), "bytes": texture_bytes(&scene.asset, texture) })
+    });
     json!({
-        "passes": plan.passes.iter().map(|pass| json!({ "name": pass.name(), "draws": draws(plan, *pass) })).collect::<Vec<_>>(),
-        "pipelines": pipelines,
-        "textures": textures,
+        "passes": passes.collect::<Vec<_>>(),
+        "pipelines": pipelines.collect::<Vec<_>>(),
+        "textures": textures.collect::<Vec<_>>(),
         "memory": {
             "vertex_bytes": plan.stream_bytes(&scene.asset), "index_bytes": plan.index_bytes(&scene.asset),
             "texture_bytes": plan.textures.iter().map(|texture| texture_bytes(&scene.asset, texture)).sum::<u64>(),
-            "target_bytes": target_bytes(size, samples),
+            "target_bytes": target_bytes(options),
         },
         "left_out": plan.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
         "lint": scene.asset.warnings,
     })
 }
 
-fn print_text(scene: &Scene, plan: &Plan) {
-    println!("passes");
+fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
+    let mut text = "passes\n".to_owned();
     for pass in &plan.passes {
-        println!("  {:<12} {} draws", pass.name(), draws(plan, *pass));
+        text += &format!("  {:<12} {} draws\n", pass.name(), draws(plan, *pass));
     }
-    println!("pipelines");
-    for spec in &plan.pipelines {
-        println!("  {} with {} ({})", spec.fragment, spec.vertex, constants_text(&spec.constants));
-    }
+    text += "pipelines\n";
     for spec in &plan.compute_pipelines {
-        println!("  {} ({})", spec.shader, constants_text(&spec.constants));
+        text += &format!("  {} ({})\n", spec.shader, constants_text(&spec.constants));
     }
-    println!(
-        "vertex streams: {} bytes, indices: {} bytes",
-        plan.stream_bytes(&scene.asset),
-        plan.index_bytes(&scene.asset)
-    );
+    for spec in plan.pipelines.iter().chain([&tonemap(options)]) {
+        text += &format!("  {} with {} ({})\n", spec.fragment, spec.vertex, constants_text(&spec.constants));
+    }
+    let (streams, indices) = (plan.stream_bytes(&scene.asset), plan.index_bytes(&scene.asset));
+    text += &format!("vertex streams: {streams} bytes, indices: {indices} bytes\n");
     for ((mesh, primitive), streams) in &plan.streams {
         let name = scene.asset.meshes[*mesh].name.as_deref().unwrap_or("mesh");
-        println!("  {name}.{primitive}: {streams:?}");
+        text += &format!("  {name}.{primitive}: {streams:?}\n");
     }
-    println!("textures");
+    text += &format!("targets: {} bytes\ntextures\n", target_bytes(options));
     for texture in &plan.textures {
-        println!(
-            "  {} ({}, {} bytes)",
-            scene.asset.images[texture.image].name,
-            format(texture),
-            texture_bytes(&scene.asset, texture)
-        );
+        let (name, bytes) = (&scene.asset.images[texture.image].name, texture_bytes(&scene.asset, texture));
+        text += &format!("  {name} ({}, {bytes} bytes)\n", format(texture));
     }
-    println!("left out");
+    text += "left out\n";
     for left in &plan.left_out {
-        println!("  {}: {}", left.what, left.why);
+        text += &format!("  {}: {}\n", left.what, left.why);
     }
     for warning in &scene.asset.warnings {
-        println!("warning: {warning}");
+        text += &format!("warning: {warning}\n");
     }
+    text
+}
+
+/// The tone mapping is no part of the plan, since it depends on the target; `vair render` draws into this one.
+fn tonemap(options: &FrameOptions) -> PipelineSpec {
+    PipelineSpec::tonemap(options.tonemap, options.hdr_format, vk::Format::R8G8B8A8_UNORM)
 }
 
 fn draws(plan: &Plan, pass: Pass) -> usize {
@@ -142,8 +144,14 @@ fn texture_bytes(asset: &Asset, texture: &TextureUse) -> u64 {
     bytes
 }
 
-/// HDR colour (8 bytes) and depth (4) at every sample, the resolved colour, the picture.
-fn target_bytes(size: [u32; 2], samples: u32) -> u64 {
-    let pixels = u64::from(size[0]) * u64::from(size[1]);
-    pixels * (12 * u64::from(samples) + if samples > 1 { 8 } else { 0 } + 4)
+/// Colour and depth at every sample, the resolved colour, and the picture.
+fn target_bytes(options: &FrameOptions) -> u64 {
+    let pixels = options.size.iter().map(|side| u64::from(*side)).product::<u64>();
+    let color = match options.hdr_format {
+        HdrFormat::Rgba16f => 8,
+        HdrFormat::B10g11r11 => 4,
+    };
+    let (depth, picture) = (4, 4);
+    let resolved = if options.msaa > 1 { color } else { 0 };
+    pixels * (u64::from(options.msaa) * (color + depth) + resolved + picture)
 }

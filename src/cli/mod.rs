@@ -1,61 +1,113 @@
 //! The command line: the only place that prints, and the only one that decides exit statuses.
 //!
-//! 0 on success, 2 on bad usage, 1 on any other failure with one line on standard error.
+//! 0 on success, 2 on a command line that cannot be right, 1 on any other failure. A failure is one line on standard
+//! error. A reader that closes standard output early ends the program without a complaint.
 
+mod cache;
 mod devices;
 mod inspect;
-mod json;
+mod output;
 mod presets;
+mod quality;
 mod render;
 mod scene;
+mod sequence;
 mod values;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
-/// Renders fur and cloth with Vulkan, and says what that cost.
+/// Exit status of a command line that cannot be right.
+const USAGE: u8 = 2;
+
+/// Renders fur with Vulkan, and says what that cost.
 #[derive(Debug, Parser)]
-#[command(name = "vair", version, arg_required_else_help = true)]
+#[command(name = "vair", version, propagate_version = true)]
 struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Renders a glTF file, or the embedded gallery, to PNG or EXR.
-    Render(render::RenderArguments),
+    Render(Box<render::RenderArguments>),
     /// Says what a frame will do: passes, pipelines, textures, memory, and what is left out and why.
-    Inspect(inspect::InspectArguments),
+    Inspect(Box<inspect::InspectArguments>),
     /// Lists the Vulkan devices, and why one is refused.
     Devices(devices::DevicesArguments),
     /// Lists the material presets and their parameters.
     Presets(presets::PresetsArguments),
 }
 
+/// Options that each make sense and together do not.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct UsageError(&'static str);
+
 /// Parses, runs, and turns the outcome into an exit status.
 pub fn run() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
-        Err(error) => {
-            // Prints help to stdout and mistakes to stderr; a closed pipe is no failure of ours.
-            let _ = error.print();
-            return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+    // A panic is a defect of ours; whoever meets it still gets one line and status 1.
+    panic::set_hook(Box::new(|panic| output::complain(&format!("internal error, please report it: {panic}"))));
+    panic::catch_unwind(AssertUnwindSafe(parse_and_run)).unwrap_or(ExitCode::FAILURE)
+}
+
+fn parse_and_run() -> ExitCode {
+    let outcome = match Arguments::try_parse() {
+        Ok(Arguments { command: None }) => output::print(&Arguments::command().render_help().to_string()),
+        Ok(Arguments { command: Some(command) }) => match command {
+            Command::Render(arguments) => render::run(&arguments),
+            Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Devices(arguments) => devices::run(&arguments),
+            Command::Presets(arguments) => presets::run(&arguments),
+        },
+        Err(error) if error.use_stderr() => {
+            output::complain(&usage_in_one_line(&error.render().to_string()));
+            return ExitCode::from(USAGE);
         }
-    };
-    let outcome = match arguments.command {
-        Command::Render(arguments) => render::run(&arguments),
-        Command::Inspect(arguments) => inspect::run(&arguments),
-        Command::Devices(arguments) => devices::run(&arguments),
-        Command::Presets(arguments) => presets::run(&arguments),
+        Err(help) => output::print(&help.render().to_string()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // One line, whatever the causes hold.
-            let text = format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ");
-            eprintln!("vair: {text}");
-            ExitCode::FAILURE
+            output::complain(&in_one_line(&error));
+            ExitCode::from(if error.is::<UsageError>() { USAGE } else { 1 })
         }
+    }
+}
+
+/// The error and its causes. Many messages hold their cause's already: it is not said twice.
+fn in_one_line(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |line, cause| match line {
+        line if line.contains(&cause) => line,
+        line if line.is_empty() => cause,
+        line => format!("{line}: {cause}"),
+    })
+}
+
+/// The parser's paragraphs as one line, without the parts that repeat `--help`.
+fn usage_in_one_line(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let lines = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    // Nobody who mistypes an option means a file of that name.
+    let kept: Vec<_> = lines.filter(|line| !line.starts_with("tip: to pass")).collect();
+    format!("{}; see --help", kept.join(" ").trim_start_matches("error: "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_declaration_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn usage_errors_are_one_line() {
+        let error = Arguments::try_parse_from(["vair", "render", "--msaa", "3"]).unwrap_err();
+        let line = usage_in_one_line(&error.render().to_string());
+        assert_eq!(line, "invalid value '3' for '--msaa <1/4>' [possible values: 1, 4]; see --help");
     }
 }

@@ -1,6 +1,6 @@
 //! `vair presets`.
 
-use super::json;
+use super::output;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
@@ -27,27 +27,28 @@ pub fn run(arguments: &PresetsArguments) -> Result<()> {
             })
             .collect();
         let family = |list: &[Parameter]| list.iter().map(parameter).collect::<Vec<_>>();
-        return json::print(&json!({
+        return output::print_json(&json!({
             "presets": list,
             "parameters": { "standard": family(Standard::PARAMETERS), "fur": family(Fur::PARAMETERS) },
         }));
     }
+    let mut text = String::new();
     if arguments.parameters {
         for (kind, list) in [("standard", Standard::PARAMETERS), ("fur", Fur::PARAMETERS)] {
-            println!("{kind}");
+            text += &format!("{kind}\n");
             for entry in list {
-                println!("  {:<28} {} [{}]: {}", entry.name, entry.kind, (entry.default)(), entry.help);
+                text += &format!("  {:<28} {} [{}]: {}\n", entry.name, entry.kind, (entry.default)(), entry.help);
             }
         }
-        return Ok(());
+        return output::print(&text);
     }
     for preset in presets() {
-        println!("{} ({}): {}", preset.name, preset.kind(), preset.help);
+        text += &format!("{} ({}): {}\n", preset.name, preset.kind(), preset.help);
         for (key, value) in preset.parameters() {
-            println!("    {key} = {value}");
+            text += &format!("    {key} = {value}\n");
         }
     }
-    Ok(())
+    output::print(&text)
 }
 
 fn parameter(entry: &Parameter) -> Value {

@@ -1,13 +1,15 @@
 //! `vair render`.
 
-use super::json::{self, milliseconds};
+use super::cache::pipeline_cache_dir;
+use super::output::{self, milliseconds};
 use super::scene::SceneArguments;
-use super::values;
-use anyhow::{Context, Result, bail};
+use super::sequence::{self, Shard};
+use super::{UsageError, values};
+use anyhow::{Result, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,14 +24,14 @@ pub struct RenderArguments {
     /// Frames A up to, not including, B of the animation.
     #[arg(long, value_name = "A..B", value_parser = values::frames)]
     frames: Option<Range<u32>>,
-    /// Frames a second of a sequence.
+    /// Frames a second of a sequence; frame 0 is at --time.
     #[arg(long, value_name = "F", default_value = "30", value_parser = values::frame_rate)]
     fps: f32,
     /// Of a sequence, only the frames whose number divided by N leaves I.
     #[arg(long, value_name = "I/N", value_parser = values::shard, requires = "frames")]
-    shard: Option<(u32, u32)>,
+    shard: Option<Shard>,
     /// The picture: .png or .exr (linear light); of a sequence, {frame} becomes the number; - is standard output.
-    #[arg(long, value_name = "FILE", default_value = "vair.png")]
+    #[arg(long, value_name = "FILE", default_value = "vair.png", value_parser = values::PictureFile)]
     out: PathBuf,
     /// After a warm-up, N timed frames.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000), conflicts_with = "frames")]
@@ -48,47 +50,53 @@ pub struct RenderArguments {
 pub fn run(arguments: &RenderArguments) -> Result<()> {
     let to_stdout = arguments.out == Path::new("-");
     if to_stdout && arguments.json {
-        bail!("--out - and --json both want standard output; give the picture a file name");
+        return Err(UsageError("--out - and --json both want standard output; give the picture a file name").into());
     }
     if to_stdout && arguments.frames.is_some() {
-        bail!("--out -: a sequence needs a file name");
+        return Err(UsageError("--out - holds one picture; give a sequence a file name").into());
     }
     let format = if to_stdout { PictureFormat::Png } else { PictureFormat::of(&arguments.out)? };
+    let count = arguments.frame_numbers().map_or(1, Iterator::count);
+    let Some(first) = arguments.shots().next() else {
+        bail!("--shard: no frame of this sequence is in that part; use fewer parts than frames");
+    };
+    if !to_stdout {
+        output::check_writable(&first.path)?;
+    }
 
     let start = Instant::now();
     let scene = arguments.scene.load()?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
     let options = arguments.scene.frame_options(&scene)?;
     if !arguments.json {
-        for warning in &scene.asset.warnings {
-            eprintln!("vair: warning: {warning}");
-        }
+        arguments.scene.complain(&scene);
     }
 
     let mut renderer = Renderer::new(&GpuOptions {
         device: arguments.device.clone(),
         validate: arguments.validate,
-        ..GpuOptions::default()
+        pipeline_cache_dir: pipeline_cache_dir(),
     })?;
     let mut frames_ms = Vec::new();
     let mut last = None;
-    let shots = shots(arguments, &options);
-    let progress = progress(shots.len());
-    for (path, options) in &shots {
-        let (picture, report) = renderer.render_reported(&scene, options, format == PictureFormat::Exr)?;
+    let progress = progress(count);
+    for Shot { path, offset_s } in arguments.shots() {
+        let options = FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+        let (picture, report) = renderer.render_reported(&scene, &options, format == PictureFormat::Exr)?;
         if to_stdout {
-            std::io::stdout().write_all(&picture.encode(format)?).context("standard output")?;
+            output::print_bytes(&picture.encode(format)?)?;
         } else {
-            picture.save(path)?;
+            picture.save(&path)?;
         }
         frames_ms.push(report.frame_ms);
-        last = Some((path.clone(), report));
+        last = Some((path, report));
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let Some((path, mut report)) = last else { bail!("--shard leaves no frame of this sequence") };
+    let Some((path, mut report)) = last else { bail!("no frame was asked for") };
     let first_ms = frames_ms[0];
 
+    // The picture's own frame was the warm-up.
     if let Some(count) = arguments.bench {
         frames_ms.clear();
         for _ in 0..count {
@@ -98,11 +106,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     }
 
     let messages = renderer.gpu().validation_messages();
+    let times = FrameTimes { load_ms, first_ms, frames_ms: &frames_ms };
     if arguments.json {
-        let times = FrameTimes { load_ms, first_ms, frames_ms: &frames_ms };
-        json::print(&summary(&renderer, &scene, &path, &options, &report, &times))?;
+        output::print_json(&summary(&renderer, &scene, &path, &options, &report, &times))?;
     } else if !to_stdout {
-        print_text(&path, shots.len(), &report, &frames_ms, arguments.bench.is_some());
+        output::print(&as_text(&path, count, &report, &times))?;
     }
     if let Some(first) = messages.first() {
         bail!("{} validation messages; the first: {first}", messages.len());
@@ -110,42 +118,36 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     Ok(())
 }
 
-/// The files to write and the frame of each.
-fn shots(arguments: &RenderArguments, options: &FrameOptions) -> Vec<(PathBuf, FrameOptions)> {
-    let Some(frames) = arguments.frames.clone() else {
-        return vec![(arguments.out.clone(), options.clone())];
-    };
-    frames
-        .filter(|frame| arguments.shard.is_none_or(|(part, parts)| frame % parts == part))
-        .map(|frame| {
-            let time_s = options.time_s + frame as f32 / arguments.fps;
-            (numbered(&arguments.out, frame), FrameOptions { time_s, ..options.clone() })
-        })
-        .collect()
+/// One picture to make.
+struct Shot {
+    path: PathBuf,
+    /// Seconds after `--time`.
+    offset_s: f64,
 }
 
-/// `{frame}` becomes the number; without it the number goes before the ending.
-fn numbered(path: &Path, frame: u32) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let number = format!("{frame:04}");
-    let name = if name.contains("{frame}") {
-        name.replace("{frame}", &number)
-    } else {
-        match name.rsplit_once('.') {
-            Some((stem, ending)) => format!("{stem}{number}.{ending}"),
-            None => name + &number,
+impl RenderArguments {
+    /// Numbers of a sequence's frames; `None` without a sequence.
+    fn frame_numbers(&self) -> Option<impl Iterator<Item = u32>> {
+        self.frames.clone().map(|range| sequence::frames(range, self.shard))
+    }
+
+    fn shots(&self) -> Box<dyn Iterator<Item = Shot> + '_> {
+        match self.frame_numbers() {
+            None => Box::new(std::iter::once(Shot { path: self.out.clone(), offset_s: 0.0 })),
+            Some(frames) => Box::new(frames.map(|frame| Shot {
+                path: sequence::file(&self.out, frame),
+                offset_s: f64::from(frame) / f64::from(self.fps),
+            })),
         }
-    };
-    path.with_file_name(name)
+    }
 }
 
 fn progress(frames: usize) -> ProgressBar {
     if frames < 2 || !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left");
     let bar = ProgressBar::with_draw_target(Some(frames as u64), ProgressDrawTarget::stderr());
-    match style {
+    match ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }
@@ -157,7 +159,7 @@ struct FrameTimes<'a> {
     frames_ms: &'a [f64],
 }
 
-/// Smallest, middle and largest.
+/// Smallest, middle and largest of at least one value.
 fn spread(values: &[f64]) -> (f64, f64, f64) {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -176,41 +178,34 @@ fn summary(
 ) -> Value {
     let info = renderer.gpu().info();
     let (min, median, max) = spread(times.frames_ms);
-    let passes: Vec<Value> = report
-        .passes
-        .iter()
-        .map(|pass| {
-            json!({
-                "name": pass.name, "gpu_ms": pass.gpu_ms.map(milliseconds), "draws": pass.draws,
-                "instances": pass.instances, "triangles": pass.triangles,
-                "fragments": pass.statistics.as_ref().map(|statistics| statistics.fragment_invocations),
-            })
+    let passes = report.passes.iter().map(|pass| {
+        json!({
+            "name": pass.name, "gpu_ms": pass.gpu_ms.map(milliseconds), "draws": pass.draws,
+            "instances": pass.instances, "triangles": pass.triangles,
+            "fragments": pass.statistics.as_ref().map(|statistics| statistics.fragment_invocations),
         })
-        .collect();
-    let fur: Vec<Value> = report
-        .fur
-        .iter()
-        .map(|coat| {
-            json!({
-                "material": coat.material, "layers": coat.layers, "instances": coat.instances,
-                "vertices_stored": coat.vertices_stored,
-            })
+    });
+    let fur = report.fur.iter().map(|coat| {
+        json!({
+            "material": coat.material, "layers": coat.layers, "instances": coat.instances,
+            "vertices_stored": coat.vertices_stored,
         })
-        .collect();
-    let left_out: Vec<Value> =
-        report.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect();
+    });
+    let left_out = report.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why }));
     json!({
         "device": { "name": info.name, "driver": info.driver, "api": info.api },
-        "image": { "path": path, "width": options.size[0], "height": options.size[1] },
+        // A name that is not UTF-8 cannot be JSON as it is.
+        "image": { "path": path.to_string_lossy(), "width": options.size[0], "height": options.size[1] },
         "ms": {
             "load": milliseconds(times.load_ms), "pipelines": milliseconds(report.pipelines_ms),
             "first_frame": milliseconds(times.first_ms), "frame_min": milliseconds(min),
-            "frame_median": milliseconds(median), "frame_max": milliseconds(max), "frames": times.frames_ms.len(),
+            "frame_median": milliseconds(median), "frame_max": milliseconds(max),
+            "frame_count": times.frames_ms.len(),
         },
-        "passes": passes,
-        "fur": fur,
+        "passes": passes.collect::<Vec<_>>(),
+        "fur": fur.collect::<Vec<_>>(),
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes() },
-        "left_out": left_out,
+        "left_out": left_out.collect::<Vec<_>>(),
         "warnings": scene.asset.warnings,
         "validation_messages": renderer.gpu().validation_messages(),
     })
@@ -223,22 +218,32 @@ fn host_peak_bytes() -> Option<u64> {
     line.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok().map(|kib| kib * 1024)
 }
 
-fn print_text(path: &Path, count: usize, report: &FrameReport, frames_ms: &[f64], bench: bool) {
-    let written =
-        if count == 1 { path.display().to_string() } else { format!("{count} frames, the last {}", path.display()) };
-    let (min, median, max) = spread(frames_ms);
-    println!("{written}");
-    if bench || count > 1 {
-        println!("frame: median {median:.1} ms, {min:.1} to {max:.1} ms over {} frames", frames_ms.len());
-    } else {
-        println!("frame: {median:.1} ms, the first one, with uploads and pipelines ({:.1} ms)", report.pipelines_ms);
-    }
+fn as_text(path: &Path, count: usize, report: &FrameReport, times: &FrameTimes) -> String {
+    let (min, median, max) = spread(times.frames_ms);
+    let mut text = match count {
+        1 => format!("{}\n", path.display()),
+        _ => format!("{count} frames, the last {}\n", path.display()),
+    };
+    text += &match times.frames_ms {
+        [_] => format!("frame: {median:.1} ms, with uploads and pipelines ({:.1} ms)\n", report.pipelines_ms),
+        all => format!("frame: median {median:.1} ms, {min:.1} to {max:.1} ms over {} frames\n", all.len()),
+    };
     for pass in &report.passes {
         let time = pass.gpu_ms.map_or_else(|| "not timed".to_owned(), |ms| format!("{ms:.2} ms"));
-        println!(
-            "  {:<12} {time:>12}  {} draws, {} instances, {} triangles",
-            pass.name, pass.draws, pass.instances, pass.triangles
-        );
+        let (name, draws, instances, triangles) = (pass.name.as_str(), pass.draws, pass.instances, pass.triangles);
+        text += &format!("  {name:<12} {time:>12}  {draws} draws, {instances} instances, {triangles} triangles\n");
     }
-    println!("device memory: {:.1} MiB", report.memory.device_bytes as f64 / f64::from(1 << 20));
+    text += &format!("device memory: {:.1} MiB\n", report.memory.device_bytes as f64 / f64::from(1 << 20));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_of_an_even_number_lies_between() {
+        assert_eq!(spread(&[4.0, 1.0, 3.0, 2.0]), (1.0, 2.5, 4.0));
+        assert_eq!(spread(&[5.0]), (5.0, 5.0, 5.0));
+    }
 }

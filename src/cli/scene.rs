@@ -1,21 +1,24 @@
 //! Options that choose a scene and a view of it; `render` and `inspect` share them.
 
-use super::values;
+use super::quality::Quality;
+use super::values::{self, Layers};
+use super::{UsageError, output};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
-use vair::asset::LoadOptions;
 use vair::asset::procedural::GALLERY_CAMERA;
+use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
 use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
-use vair::scene::{self, CameraChoice, Scene};
+use vair::scene::{self, CameraChoice, Scene, SceneError};
 
 /// What to show.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
     /// A .gltf or .glb file; without one, the embedded gallery.
-    pub scene_file: Option<PathBuf>,
+    #[arg(value_name = "SCENE")]
+    scene_file: Option<PathBuf>,
     /// Materials for glTF material names, in TOML.
     #[arg(long, value_name = "FILE.toml")]
     look: Option<PathBuf>,
@@ -25,8 +28,8 @@ pub struct SceneArguments {
     /// Lets a scene or look read files outside its own folder.
     #[arg(long)]
     allow_outside: bool,
-    /// Most memory that a scene's data may take, in MiB.
-    #[arg(long, value_name = "MIB", default_value_t = 4096)]
+    /// Most memory that a scene's data may take: bytes, or with KiB, MiB, GiB.
+    #[arg(long, value_name = "BYTES", default_value = "4GiB", value_parser = values::bytes)]
     memory_limit: u64,
     /// Scene of the file, by name or index.
     #[arg(long, value_name = "NAME/INDEX")]
@@ -44,8 +47,8 @@ pub struct SceneArguments {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     size: [u32; 2],
     /// A camera of the file, by name or index; without one, the scene is framed.
-    #[arg(long, value_name = "NAME/INDEX", value_parser = values::camera, conflicts_with_all = ["orbit", "target", "fov"])]
-    camera: Option<CameraChoice>,
+    #[arg(long, value_name = "NAME/INDEX", conflicts_with_all = ["orbit", "target", "fov"])]
+    camera: Option<String>,
     /// Eye on a sphere around the target: degrees around Y, degrees from Y, metres.
     #[arg(long, value_name = "THETA,PHI,RADIUS", value_parser = values::orbit, allow_hyphen_values = true)]
     orbit: Option<(f32, f32, Option<f32>)>,
@@ -55,12 +58,16 @@ pub struct SceneArguments {
     /// Vertical field of view in degrees.
     #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
     fov: Option<f32>,
-    /// Shells a coat, or auto for what each material says.
-    #[arg(long, value_name = "N/auto", default_value = "auto", value_parser = values::layers)]
-    layers: LayerChoice,
-    /// Samples a pixel.
-    #[arg(long, value_name = "1/4", default_value = "4", value_parser = ["1", "4"])]
-    msaa: String,
+    /// A bundle of samples and shells: draft 1 sample and half the shells, normal 4 samples and the shells that each
+    /// material says, high 1.5 times the shells, reference 3 times.
+    #[arg(long, value_enum, default_value_t = Quality::Normal, hide_possible_values = true, value_name = "draft/normal/high/reference")]
+    quality: Quality,
+    /// Shells a coat, or auto for what each material says; wins over --quality.
+    #[arg(long, value_name = "N/auto", value_parser = values::layers)]
+    layers: Option<Layers>,
+    /// Samples a pixel; wins over --quality.
+    #[arg(long, value_name = "1/4", value_parser = ["1", "4"])]
+    msaa: Option<String>,
     /// Format of the linear colour target.
     #[arg(long, value_enum, default_value_t = HdrChoice::Rgba16f)]
     hdr_format: HdrChoice,
@@ -74,8 +81,6 @@ pub struct SceneArguments {
     #[arg(long, value_name = "env/transparent/R,G,B", default_value = "env", value_parser = values::background)]
     background: Background,
 }
-
-type LayerChoice = Option<u32>;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum HdrChoice {
@@ -94,10 +99,11 @@ enum TonemapChoice {
 impl SceneArguments {
     /// Loads the scene and puts look and preset on it.
     pub fn load(&self) -> Result<Scene> {
-        let limits = LoadOptions {
-            allow_outside: self.allow_outside,
-            memory_limit_bytes: self.memory_limit.saturating_mul(1 << 20),
-        };
+        if self.background == Background::Transparent && matches!(self.hdr_format, HdrChoice::B10g11r11) {
+            let text = "--hdr-format b10g11r11 has no alpha; use rgba16f with --background transparent";
+            return Err(UsageError(text).into());
+        }
+        let limits = LoadOptions { allow_outside: self.allow_outside, memory_limit_bytes: self.memory_limit };
         let mut scene = match &self.scene_file {
             Some(path) => Scene::load(path, &limits)?,
             None => Scene::gallery(),
@@ -108,22 +114,30 @@ impl SceneArguments {
             scene.apply(&Look::preset(name, material)?, Path::new("."), &limits)?;
         }
         if let Some(path) = &self.look {
-            let text = std::fs::read_to_string(path).with_context(|| format!("look {}", path.display()))?;
-            let look = Look::parse(&text, &path.display().to_string())?;
-            scene.apply(&look, path.parent().unwrap_or(Path::new(".")), &limits)?;
+            scene.apply_file(path, &limits)?;
         }
         Ok(scene)
     }
 
+    /// What a loaded scene has to say, one line each.
+    pub fn complain(&self, scene: &Scene) {
+        for warning in &scene.asset.warnings {
+            let file = self.scene_file.as_deref().unwrap_or(Path::new("gallery")).display();
+            output::complain(&format!("warning: {file}: {warning}"));
+        }
+    }
+
     /// The frame that these options ask for.
     pub fn frame_options(&self, scene: &Scene) -> Result<FrameOptions> {
+        let file = || self.scene_file.as_deref().unwrap_or(Path::new("gallery")).display().to_string();
         let asset = &scene.asset;
-        let named = |text: &Option<String>, find: fn(&vair::asset::Asset, &str) -> Result<usize, scene::SceneError>| {
-            text.as_deref().map(|text| find(asset, text)).transpose()
+        let named = |text: &Option<String>, find: fn(&Asset, &str) -> Result<usize, SceneError>| {
+            text.as_deref().map(|text| find(asset, text)).transpose().with_context(file)
         };
+        let camera = named(&self.camera, scene::find_camera)?;
         Ok(FrameOptions {
             size: self.size,
-            camera: self.camera_choice(),
+            camera: camera.map_or_else(|| self.view(), CameraChoice::Index),
             scene: named(&self.scene, scene::find_scene)?,
             animation: named(&self.animation, scene::find_animation)?,
             time_s: self.time,
@@ -140,15 +154,21 @@ impl SceneArguments {
                 HdrChoice::Rgba16f => HdrFormat::Rgba16f,
                 HdrChoice::B10g11r11 => HdrFormat::B10g11r11,
             },
-            layers: self.layers,
-            msaa: if self.msaa == "1" { 1 } else { 4 },
+            layers: match self.layers {
+                Some(Layers::Count(layers)) => Some(layers),
+                Some(Layers::Auto) | None => None,
+            },
+            layer_scale: if self.layers.is_some() { 1.0 } else { self.quality.layer_scale() },
+            msaa: match self.msaa.as_deref() {
+                Some("1") => 1,
+                Some(_) => 4,
+                None => self.quality.msaa(),
+            },
         })
     }
 
-    fn camera_choice(&self) -> CameraChoice {
-        if let Some(camera) = &self.camera {
-            return camera.clone();
-        }
+    /// Without a camera of the file.
+    fn view(&self) -> CameraChoice {
         if self.orbit.is_none() && self.target.is_none() && self.fov.is_none() {
             // The gallery is composed for one view; its backdrop is not what should fill the picture.
             return match self.scene_file {

@@ -1,13 +1,29 @@
 //! Values of options, parsed where clap can still say "usage".
 
+use clap::builder::TypedValueParser;
+use clap::{Arg, Command};
 use glam::Vec3;
-use vair::render::Background;
-use vair::scene::CameraChoice;
+use std::ffi::OsStr;
+use std::path::PathBuf;
+use vair::render::{Background, MAX_LAYERS, PictureFormat, RenderError};
+
+/// Shells a coat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layers {
+    /// What each material says.
+    Auto,
+    /// 1 to [`MAX_LAYERS`].
+    Count(u32),
+}
 
 /// `1280x720`.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or("write it as WIDTHxHEIGHT, for example 1280x720")?;
-    let side = |text: &str| text.parse::<u32>().map_err(|_| format!("{text:?} is not a number of pixels"));
+    let side = |text: &str| match text.parse::<u32>() {
+        Ok(0) => Err("both sides must be at least 1 pixel".to_owned()),
+        Ok(side) => Ok(side),
+        Err(_) => Err(format!("{text:?} is not a number of pixels")),
+    };
     Ok([side(width)?, side(height)?])
 }
 
@@ -51,14 +67,12 @@ pub fn background(text: &str) -> Result<Background, String> {
     }
 }
 
-/// A number of shells.
-pub fn layers(text: &str) -> Result<Option<u32>, String> {
-    if text == "auto" {
-        return Ok(None);
-    }
+/// A number of shells, or `auto`.
+pub fn layers(text: &str) -> Result<Layers, String> {
     match text.parse() {
-        Ok(layers @ 1..=256) => Ok(Some(layers)),
-        _ => Err("the number of shells must be 1 to 256, or auto (what the material says)".to_owned()),
+        _ if text == "auto" => Ok(Layers::Auto),
+        Ok(layers @ 1..=MAX_LAYERS) => Ok(Layers::Count(layers)),
+        _ => Err(format!("the number of shells must be 1 to {MAX_LAYERS}, or auto (what the material says)")),
     }
 }
 
@@ -96,13 +110,40 @@ pub fn finite(text: &str) -> Result<f32, String> {
 
 /// Frames a second, > 0.
 pub fn frame_rate(text: &str) -> Result<f32, String> {
-    finite(text)?;
-    text.parse::<f32>().ok().filter(|rate| *rate > 0.0).ok_or_else(|| "must be greater than 0".to_owned())
+    finite(text).and_then(|rate| if rate > 0.0 { Ok(rate) } else { Err("must be greater than 0".to_owned()) })
 }
 
-/// A camera by name or index, as [`vair::scene::CameraChoice`].
-pub fn camera(text: &str) -> Result<CameraChoice, String> {
-    Ok(text.parse().map_or_else(|_| CameraChoice::Named(text.to_owned()), CameraChoice::Index))
+/// Bytes, with or without a suffix: `1048576`, `512MiB`, `4GiB`.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    const SUFFIXES: [(&str, u64); 3] = [("KiB", 1 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30)];
+    let suffix = SUFFIXES.iter().find_map(|(suffix, unit)| Some((text.strip_suffix(suffix)?, *unit)));
+    let (number, unit) = suffix.unwrap_or((text, 1));
+    let bytes = number.trim().parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
+    bytes.ok_or_else(|| "write it in bytes, or with KiB, MiB or GiB, for example 512MiB".to_owned())
+}
+
+/// The file of a picture: its ending names the format; `-` is a PNG on standard output.
+pub fn picture_file(text: &OsStr) -> Result<PathBuf, RenderError> {
+    let path = PathBuf::from(text);
+    if text != "-" {
+        PictureFormat::of(&path)?;
+    }
+    Ok(path)
+}
+
+/// [`picture_file`] for clap, which hands over names that are not UTF-8 only to its own trait.
+#[derive(Debug, Clone)]
+pub struct PictureFile;
+
+impl TypedValueParser for PictureFile {
+    type Value = PathBuf;
+
+    fn parse_ref(&self, command: &Command, argument: Option<&Arg>, value: &OsStr) -> Result<PathBuf, clap::Error> {
+        picture_file(value).map_err(|error| {
+            let name = argument.map(Arg::to_string).unwrap_or_default();
+            clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{name}: {error}\n")).with_cmd(command)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -112,7 +153,7 @@ mod tests {
     #[test]
     fn sizes_orbits_and_colours() {
         assert_eq!(size("640x480"), Ok([640, 480]));
-        assert!(size("640").is_err() && size("-1x4").is_err() && size("x").is_err());
+        assert!(size("640").is_err() && size("-1x4").is_err() && size("0x4").is_err() && size("x").is_err());
         assert_eq!(orbit("30,60,2"), Ok((30.0, 60.0, Some(2.0))));
         assert_eq!(orbit("30,60"), Ok((30.0, 60.0, None)));
         assert!(orbit("30").is_err() && orbit("1,2,0").is_err() && orbit("nan,1,1").is_err());
@@ -126,7 +167,22 @@ mod tests {
         assert!(frames("7..3").is_err() && frames("3").is_err());
         assert_eq!(shard("0/2"), Ok((0, 2)));
         assert!(shard("2/2").is_err() && shard("1").is_err());
-        assert_eq!(layers("auto"), Ok(None));
+        assert_eq!(layers("auto"), Ok(Layers::Auto));
+        assert_eq!(layers("256"), Ok(Layers::Count(256)));
         assert!(layers("0").is_err() && layers("257").is_err());
+    }
+
+    #[test]
+    fn memory() {
+        assert_eq!(bytes("4GiB"), Ok(4 << 30));
+        assert_eq!(bytes("512 MiB"), Ok(512 << 20));
+        assert_eq!(bytes("77"), Ok(77));
+        assert!(bytes("4GB").is_err() && bytes("-1").is_err() && bytes("99999999999GiB").is_err());
+    }
+
+    #[test]
+    fn picture_names() {
+        assert!(picture_file("-".as_ref()).is_ok() && picture_file("a.PNG".as_ref()).is_ok());
+        assert!(picture_file("a.jpg".as_ref()).is_err() && picture_file("png".as_ref()).is_err());
     }
 }

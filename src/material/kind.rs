@@ -18,12 +18,37 @@ pub trait TextureSource {
     fn texture(&mut self, image: &ImageName) -> Result<usize, String>;
 }
 
+/// What a file writes for a value, as far as a schema can tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// A number.
+    Number,
+    /// A whole number.
+    Count,
+    /// true or false.
+    Switch,
+    /// A list of that many numbers.
+    Vector(usize),
+    /// A list of three numbers, or "#rrggbb".
+    Rgb,
+    /// A list of three or four numbers, or "#rrggbb", or "#rrggbbaa".
+    Rgba,
+    /// A number, or text that ends with %.
+    Distance,
+    /// A file name, or a table.
+    Map,
+    /// One of [`Kind::CHOICES`].
+    Choice,
+}
+
 /// How the values of one kind of parameter are read, shown and limited.
 pub trait Kind {
     /// What the struct holds.
     type Stored;
     /// How a file writes it.
     const SYNTAX: &'static str;
+    /// The same for programs.
+    const FORM: Form;
     /// Names to choose from, if it is a choice.
     const CHOICES: &'static [&'static str] = &[];
 
@@ -103,6 +128,7 @@ pub struct Number;
 impl Kind for Number {
     type Stored = f32;
     const SYNTAX: &'static str = "a number";
+    const FORM: Form = Form::Number;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<f32, ParameterError> {
         match value {
@@ -127,6 +153,7 @@ pub struct Count;
 impl Kind for Count {
     type Stored = u32;
     const SYNTAX: &'static str = "a whole number";
+    const FORM: Form = Form::Count;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<u32, ParameterError> {
         match value {
@@ -154,6 +181,7 @@ pub struct Switch;
 impl Kind for Switch {
     type Stored = bool;
     const SYNTAX: &'static str = "true or false";
+    const FORM: Form = Form::Switch;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<bool, ParameterError> {
         match value {
@@ -176,6 +204,7 @@ pub struct Vector2;
 impl Kind for Vector2 {
     type Stored = Vec2;
     const SYNTAX: &'static str = "[x, y]";
+    const FORM: Form = Form::Vector(2);
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<Vec2, ParameterError> {
         components(value, parameter).map(Vec2::from_array)
@@ -198,6 +227,7 @@ pub struct Vector3;
 impl Kind for Vector3 {
     type Stored = Vec3;
     const SYNTAX: &'static str = "[x, y, z]";
+    const FORM: Form = Form::Vector(3);
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<Vec3, ParameterError> {
         components(value, parameter).map(Vec3::from_array)
@@ -221,6 +251,7 @@ pub struct Rgb;
 impl Kind for Rgb {
     type Stored = Vec3;
     const SYNTAX: &'static str = "linear [r, g, b] or sRGB \"#rrggbb\"";
+    const FORM: Form = Form::Rgb;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<Vec3, ParameterError> {
         match value {
@@ -248,6 +279,7 @@ pub struct Rgba;
 impl Kind for Rgba {
     type Stored = Vec4;
     const SYNTAX: &'static str = "linear [r, g, b] or [r, g, b, a], or sRGB \"#rrggbb\" or \"#rrggbbaa\"";
+    const FORM: Form = Form::Rgba;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<Vec4, ParameterError> {
         match value {
@@ -312,6 +344,7 @@ pub struct Distance;
 impl Kind for Distance {
     type Stored = Length;
     const SYNTAX: &'static str = "metres, or \"2%\" of the bounding radius";
+    const FORM: Form = Form::Distance;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<Length, ParameterError> {
         match value {
@@ -349,6 +382,7 @@ impl Kind for Map {
     type Stored = Option<TextureRef>;
     const SYNTAX: &'static str =
         "\"file.png\" or { file = \"file.png\", tiling = [1, 1], offset = [0, 0], rotation = 0, uv_set = 0 }";
+    const FORM: Form = Form::Map;
 
     fn read(
         value: &Value,
@@ -379,6 +413,7 @@ pub struct Optional<K>(PhantomData<K>);
 impl<K: Kind<Stored: Clone>> Kind for Optional<K> {
     type Stored = Option<K::Stored>;
     const SYNTAX: &'static str = K::SYNTAX;
+    const FORM: Form = K::FORM;
     const CHOICES: &'static [&'static str] = K::CHOICES;
 
     fn read(
@@ -418,6 +453,7 @@ pub struct OneOf<C>(PhantomData<C>);
 impl<C: Choice> Kind for OneOf<C> {
     type Stored = C;
     const SYNTAX: &'static str = "a name";
+    const FORM: Form = Form::Choice;
     const CHOICES: &'static [&'static str] = C::NAMES;
 
     fn read(value: &Value, parameter: &Parameter, _: &mut dyn TextureSource) -> Result<C, ParameterError> {

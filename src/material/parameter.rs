@@ -4,7 +4,7 @@
 //!
 //! How a type reads and shows its values is said once, by a [`Kind`] in [`kind`](super::kind).
 
-use super::kind::{Kind, TextureSource};
+use super::kind::{Form, Kind, TextureSource};
 use super::nearest::nearest;
 use super::value::Value;
 
@@ -15,6 +15,8 @@ pub struct Parameter {
     pub name: &'static str,
     /// How a file writes it, for example `number` or `[r, g, b] or "#rrggbb"`.
     pub kind: &'static str,
+    /// The same for programs.
+    pub form: Form,
     /// Names to choose from, for kinds that offer a choice; otherwise empty.
     pub choices: &'static [&'static str],
     /// Unit, `""` for pure numbers.
@@ -129,7 +131,7 @@ pub const fn declared<K: Kind>(
     default: fn() -> String,
     help: &'static str,
 ) -> Parameter {
-    Parameter { name, kind: K::SYNTAX, choices: K::CHOICES, unit, range, default, help }
+    Parameter { name, kind: K::SYNTAX, form: K::FORM, choices: K::CHOICES, unit, range, default, help }
 }
 
 /// Declares a family of parameters: `name: Type as Kind = default, range, "unit", "help";`.

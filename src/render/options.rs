@@ -5,6 +5,9 @@ use crate::asset::Asset;
 use crate::scene::CameraChoice;
 use glam::Vec3;
 
+/// Most shells of a coat.
+pub const MAX_LAYERS: u32 = 256;
+
 /// Everything that a frame depends on beside its scene. `Default` is a 1280 x 720 picture of the rest pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameOptions {
@@ -30,6 +33,9 @@ pub struct FrameOptions {
     pub hdr_format: HdrFormat,
     /// Shells a coat; `None` = what each material says.
     pub layers: Option<u32>,
+    /// Factor on the shells that each material says, > 0; the product is rounded and kept within 1 to 256. Without
+    /// effect where `layers` is given.
+    pub layer_scale: f32,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
 }
@@ -48,12 +54,18 @@ impl Default for FrameOptions {
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
+            layer_scale: 1.0,
             msaa: 4,
         }
     }
 }
 
 impl FrameOptions {
+    /// Shells of a coat whose material says `layers`.
+    pub fn layers_of_coat(&self, layers: u32) -> u32 {
+        self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
     /// Says which option is out of its range or names what the file lacks.
     pub(super) fn check(&self, asset: &Asset) -> Result<(), RenderError> {
         let wrong = |option, problem: String| Err(RenderError::Option { option, problem });
@@ -66,8 +78,11 @@ impl FrameOptions {
         if !matches!(self.msaa, 1 | 4) {
             return wrong("msaa", format!("{} samples are not supported; choose 1 or 4", self.msaa));
         }
-        if self.layers.is_some_and(|layers| !(1..=256).contains(&layers)) {
-            return wrong("layers", "the number of shells must be 1 to 256".to_owned());
+        if self.layers.is_some_and(|layers| !(1..=MAX_LAYERS).contains(&layers)) {
+            return wrong("layers", format!("the number of shells must be 1 to {MAX_LAYERS}"));
+        }
+        if !(self.layer_scale > 0.0 && self.layer_scale.is_finite()) {
+            return wrong("layer scale", format!("{} is not a finite number greater than 0", self.layer_scale));
         }
         if !self.time_s.is_finite() || !self.exposure_ev.is_finite() {
             return wrong("time and exposure", "must be finite numbers".to_owned());

@@ -153,7 +153,7 @@ impl Plan {
         self.add_textures(scene, &surface_maps(&standard));
 
         if let Some(fur) = fur {
-            let layers = options.layers.unwrap_or(fur.layers);
+            let layers = options.layers_of_coat(fur.layers);
             self.add_draw(
                 scene,
                 index,

@@ -9,6 +9,14 @@ pub enum SceneError {
     /// A material or look is wrong.
     #[error(transparent)]
     Material(#[from] crate::material::MaterialError),
+    /// The look keys that a file's own materials carry are wrong.
+    #[error("{}: {source}", file.display())]
+    Keys {
+        /// The file.
+        file: std::path::PathBuf,
+        /// Which key, and why.
+        source: crate::material::MaterialError,
+    },
     /// No such animation, scene, camera or variant.
     #[error("no {kind} \"{asked}\": {}", available_in_words(kind, available))]
     Unknown {

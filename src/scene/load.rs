@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_radius_m, world_hull};
-use crate::asset::{self, Asset, AssetError, LoadOptions, generate_tangents};
+use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
 use crate::material::{self, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
 use crate::scene::Instance;
@@ -32,12 +32,17 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Loads a .gltf or .glb file.
+    /// Loads a .gltf or .glb file. Images that its materials' `vair` keys name are read from its folder.
     ///
     /// # Errors
     /// When the file is not there, not glTF, not supported or not to be trusted; the error says where and what to do.
     pub fn load(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Self, SceneError> {
-        Self::from_asset(asset::load(path.as_ref(), options)?)
+        let path = path.as_ref();
+        let mut asset = asset::load(path, options)?;
+        let mut read = images_of(folder_of(path), options);
+        let materials = material::from_asset(&mut asset, &mut read)
+            .map_err(|source| SceneError::Keys { file: path.to_owned(), source })?;
+        Ok(Self::new(asset, materials))
     }
 
     /// The embedded gallery: what the program is for, by formulas alone.
@@ -57,20 +62,40 @@ impl Scene {
         Ok(Self::new(asset, materials))
     }
 
-    /// Puts a look on the materials; its pictures are read from `folder`.
+    /// Puts a look on the materials; its images are read from `folder`. After an error the scene is not to be shown.
     ///
     /// # Errors
     /// When a key, a value, a file or a material name is wrong; the error names the line.
     pub fn apply(&mut self, look: &Look, folder: &Path, options: &LoadOptions) -> Result<(), SceneError> {
-        let mut read = |file: &str| {
-            asset::read_inside(folder, file, options.allow_outside)
-                .and_then(|bytes| asset::decode_image(&bytes, file, options.memory_limit_bytes))
-                .map_err(|error: AssetError| error.to_string())
-        };
-        look.apply(&mut self.asset, &mut self.materials, &mut read)?;
+        look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options))?;
         let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
         *self = Self::new(asset, materials);
         Ok(())
+    }
+
+    /// Reads a look file and puts it on the materials; its images are read from its folder.
+    ///
+    /// # Errors
+    /// Those of [`Scene::apply`], and when the file cannot be read or is not text.
+    pub fn apply_file(&mut self, path: impl AsRef<Path>, options: &LoadOptions) -> Result<(), SceneError> {
+        let path = path.as_ref();
+        let io = |source| AssetError::Io { path: path.to_owned(), source };
+        // Asked before opening: a pipe would wait for its writer, and a device may never end.
+        let kind = std::fs::metadata(path).map_err(io)?;
+        if !kind.is_file() {
+            return Err(io(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a plain file")).into());
+        }
+        let (needed_bytes, limit_bytes) = (kind.len(), options.memory_limit_bytes.min(MAX_LOOK_BYTES));
+        let file = path.display().to_string();
+        if needed_bytes > limit_bytes {
+            return Err(AssetError::Memory { file, field: "file".to_owned(), needed_bytes, limit_bytes }.into());
+        }
+        let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            let problem = format!("byte {at} is not UTF-8 text; save the look as UTF-8");
+            SceneError::from(AssetError::Format { file: file.clone(), field: "text".to_owned(), problem })
+        })?;
+        self.apply(&Look::parse(&text, &file)?, folder_of(path), options)
     }
 
     /// A scene is a new one whenever its asset or materials change: what the device keeps of it goes by this number.
@@ -138,6 +163,26 @@ impl Scene {
     pub fn middle_in_object(&self, instance: &Instance) -> Vec3 {
         let positions = &self.asset.meshes[instance.mesh].primitives[instance.primitive].vertices.positions;
         Aabb::around(positions.iter().copied()).center()
+    }
+}
+
+/// A look is written by hand: what is larger is another file.
+const MAX_LOOK_BYTES: u64 = 16 << 20;
+
+/// The folder that a file's own references start from.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// Reads the images that looks name, on one budget.
+fn images_of(folder: &Path, options: &LoadOptions) -> impl FnMut(&str) -> Result<Image, String> {
+    let (folder, mut left) = (folder.to_owned(), options.clone());
+    move |file| {
+        let image = asset::read_inside(&folder, file, &left)
+            .and_then(|bytes| asset::decode_image(&bytes, file, left.memory_limit_bytes))
+            .map_err(|error| error.to_string())?;
+        left.memory_limit_bytes = left.memory_limit_bytes.saturating_sub(image.rgba.len() as u64);
+        Ok(image)
     }
 }
 

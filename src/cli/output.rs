@@ -1,0 +1,52 @@
+//! What is printed, and the check that a picture can be written before it is made.
+
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// Prints to standard output. A closed pipe is the reader's choice, not a failure.
+pub fn print(text: &str) -> Result<()> {
+    print_bytes(text.as_bytes())
+}
+
+/// Prints bytes, such as a picture.
+pub fn print_bytes(bytes: &[u8]) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("standard output"),
+        _ => Ok(()),
+    }
+}
+
+/// Prints the one JSON object. A number that is not finite never gets here: `json!` makes it null.
+pub fn print_json(value: &Value) -> Result<()> {
+    print(&format!("{value:#}\n"))
+}
+
+/// Prints one line on standard error, whatever the message holds; nobody may be listening there either.
+pub fn complain(message: &str) {
+    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    let _ = writeln!(std::io::stderr(), "vair: {line}");
+}
+
+/// Milliseconds with three digits: more are noise.
+pub fn milliseconds(value: f64) -> Value {
+    ((value * 1e3).round() / 1e3).into()
+}
+
+/// Fails when a file of that name could not be written, so that nobody waits for a picture in vain.
+pub fn check_writable(path: &Path) -> Result<()> {
+    if path.is_dir() {
+        bail!("{}: is a folder; name a file in it, such as {}", path.display(), path.join("vair.png").display());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        bail!("{}: there is no folder {}; make it or choose another", path.display(), folder.display());
+    }
+    tempfile::NamedTempFile::new_in(folder).map(drop).map_err(|error| {
+        // The temporary file's own name, which the error holds, would only confuse.
+        let reason = error.kind();
+        anyhow::anyhow!("{}: {reason}; choose a folder that can be written", path.display())
+    })
+}

@@ -1,0 +1,8 @@
+//! The command line keeps its contract: exit statuses, one line a failure, one JSON object, nothing half-written.
+
+mod bad_input;
+mod bad_look;
+mod json;
+mod program;
+mod sequence;
+mod usage;
