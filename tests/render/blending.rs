@@ -92,7 +92,10 @@ fn a_transparent_background_keeps_opacity_and_straight_colour() {
         let pixel = device.picture(&scene, &frame).pixel(0, 0).map(i32::from);
         let expected = [0.5, 0.25, 1.0].map(|linear| (255.0 * srgb_from_linear(linear)).round() as i32);
         let [r, g, b, a] = pixel;
-        assert!([r, g, b].iter().zip(expected).all(|(found, shown)| (found - shown).abs() <= 1), "{pixel:?}, {expected:?}");
+        assert!(
+            [r, g, b].iter().zip(expected).all(|(found, shown)| (found - shown).abs() <= 1),
+            "{pixel:?}, {expected:?}"
+        );
         assert!((127..=128).contains(&a), "{pixel:?}");
         let empty = Stage::front(0.5).scene();
         assert_eq!(device.picture(&empty, &frame).pixel(3, 3)[3], 0);

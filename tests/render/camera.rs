@@ -42,7 +42,8 @@ fn file_cameras_put_points_where_their_projection_says() {
                 stage.object(loose(Topology::Points, &[Vec3::ZERO]), material, at(eye + place));
                 let picture = device.picture(&stage.scene(), &options(size, 1));
 
-                let half_height = if is_perspective { (0.5 * f64::from(vertical_fov)).tan() * f64::from(depth) } else { 1.0 };
+                let half_height =
+                    if is_perspective { (0.5 * f64::from(vertical_fov)).tan() * f64::from(depth) } else { 1.0 };
                 let clip = DVec3::new(f64::from(x) / half_height / aspect, f64::from(y) / half_height, 0.0);
                 let expected = [(clip.x + 1.0) * 0.5 * f64::from(size[0]), (1.0 - clip.y) * 0.5 * f64::from(size[1])];
                 let [pixel] = shown(&picture)[..] else { panic!("a point is one pixel: {:?}", shown(&picture)) };

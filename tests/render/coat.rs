@@ -79,7 +79,8 @@ pub fn stands_as_mapped(picture: &Picture, fur: &Fur, layers: u32) -> Result<(),
     }
     for k in 0..layers {
         let bottom = f64::from(k) / f64::from(layers) + 0.25 / f64::from(layers);
-        let share = |heights: &[f64]| heights.iter().filter(|&&height| height > bottom).count() as f64 / heights.len() as f64;
+        let share =
+            |heights: &[f64]| heights.iter().filter(|&&height| height > bottom).count() as f64 / heights.len() as f64;
         if share(&known) != share(&found) {
             return Err(format!("shell {k} covers {} of the surface, the map {}", share(&found), share(&known)));
         }
@@ -99,7 +100,9 @@ fn every_shell_covers_what_the_map_says() {
                     for msaa in [1, 4] {
                         let picture = device.picture(&scene, &frame(msaa));
                         let what = format!("{shape:?} {cutoff_start} to {cutoff_end}, {layers} shells, {msaa} samples");
-                        all_hold([stands_as_mapped(&picture, &fur, layers).map_err(|problem| format!("{what}: {problem}"))]);
+                        all_hold([
+                            stands_as_mapped(&picture, &fur, layers).map_err(|problem| format!("{what}: {problem}"))
+                        ]);
                     }
                 }
             }
@@ -136,15 +139,17 @@ fn a_mesh_without_uvs_is_mapped_by_projection() {
     let scene = over(bare, fur.clone());
     let radius = 0.5f64.hypot(0.5);
     headless(|device| {
-        let picture = device.picture(&scene, &frame(1));
+        let size = [256, 256];
+        let picture = device.picture(&scene, &options(size, 1));
         let mut checks = Vec::new();
         let side = f64::from(SIDE);
-        for y in 0..SIDE * BLOCK {
-            for x in 0..SIDE * BLOCK {
+        let texel_px = f64::from(size[0]) * radius / side;
+        for y in 0..size[1] {
+            for x in 0..size[0] {
                 let position = crate::stage::front_position([x, y], picture.size, 0.5);
                 let uv: DVec2 = projected(position, DVec3::Z) / radius * side;
-                // Texels are 2.8 pixels wide here: only where no neighbour of the 2 x 2 group shows another.
-                if (uv - uv.round()).abs().min_element() * BLOCK as f64 / 1.42 < 1.5 / 1.42 {
+                // Only where no pixel of the 2 x 2 group shows another texel.
+                if (uv - uv.round()).abs().min_element() * texel_px < 1.5 {
                     continue;
                 }
                 let texel = texels()[(uv.y.floor().rem_euclid(side) * side + uv.x.floor().rem_euclid(side)) as usize];
@@ -154,7 +159,7 @@ fn a_mesh_without_uvs_is_mapped_by_projection() {
                 }
             }
         }
-        assert!(checks.len() > 200, "only {} pixels can be compared", checks.len());
+        assert!(checks.len() > 20_000, "only {} pixels can be compared", checks.len());
         all_hold(checks);
     });
 }

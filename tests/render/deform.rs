@@ -156,7 +156,8 @@ fn fur_on_a_joint_looks_as_fur_on_a_node() {
             stage.object(primitive, material, placed);
         }
         let mut scene = stage.scene();
-        let (length, strand_spacing) = (Length::Metres(0.1), Length::Metres(0.05));
+        // Shares of the rest pose, which both have in common.
+        let (length, strand_spacing) = (Length::Metres(0.1), Length::Relative(0.07));
         scene.materials[material].fur = Some(Fur { length, strand_spacing, layers: 12, ..Fur::default() });
         scene
     };

@@ -41,7 +41,10 @@ fn tone_curves_and_exposure_are_those_of_the_twins() {
                     for channel in 0..3 {
                         let expected = 255.0 * srgb_from_linear(display[channel]);
                         let found = f64::from(pixel[channel]);
-                        assert!((found - expected).abs() <= 1.0, "{operator:?} {exposure_ev} {color}: {pixel:?}, {expected}");
+                        assert!(
+                            (found - expected).abs() <= 1.0,
+                            "{operator:?} {exposure_ev} {color}: {pixel:?}, {expected}"
+                        );
                     }
                 }
             }

@@ -46,7 +46,13 @@ fn hero() -> CameraChoice {
 
 impl Golden {
     pub fn options(&self) -> FrameOptions {
-        FrameOptions { size: SIZE, camera: (self.camera)(), tonemap: Tonemap::Neutral, msaa: 4, ..FrameOptions::default() }
+        FrameOptions {
+            size: SIZE,
+            camera: (self.camera)(),
+            tonemap: Tonemap::Neutral,
+            msaa: 4,
+            ..FrameOptions::default()
+        }
     }
 
     pub fn limits(&self, device: &DeviceInfo) -> &Limits {

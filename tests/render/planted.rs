@@ -22,7 +22,8 @@ fn fur_golden() -> &'static Golden {
 fn a_validation_error_is_caught() {
     let messages = validation_messages(|device| {
         let gpu = device.renderer.gpu();
-        let buffer = gpu.buffer("written twice", 64, vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device).expect("a buffer");
+        let buffer =
+            gpu.buffer("written twice", 64, vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device).expect("a buffer");
         let mut upload = gpu.upload();
         upload.buffer(&buffer, 0, &[1; 64]);
         upload.buffer(&buffer, 0, &[2; 64]);
@@ -36,7 +37,8 @@ fn a_validation_error_is_caught() {
 fn a_test_with_a_validation_error_fails() {
     headless(|device| {
         let gpu = device.renderer.gpu();
-        let buffer = gpu.buffer("written twice", 64, vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device).expect("a buffer");
+        let buffer =
+            gpu.buffer("written twice", 64, vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device).expect("a buffer");
         let mut upload = gpu.upload();
         upload.buffer(&buffer, 0, &[1; 64]);
         upload.buffer(&buffer, 0, &[2; 64]);
@@ -110,7 +112,10 @@ fn stale_missing_and_foreign_goldens_are_caught() {
         assert!(problem.contains("tools/bless"), "{problem}");
 
         // A golden from before a change of colour; one from before a change of size.
-        let stale = Picture { rgba: picture.rgba.iter().map(|byte| byte.saturating_sub(byte / 4)).collect(), ..picture.clone() };
+        let stale = Picture {
+            rgba: picture.rgba.iter().map(|byte| byte.saturating_sub(byte / 4)).collect(),
+            ..picture.clone()
+        };
         stale.save(kept.path().join("stale.png")).expect("a file");
         assert!(compare(kept.path(), "stale", &picture, &golden.other).is_err());
         let small = Picture { size: [2, 1], rgba: vec![7; 8], ..picture.clone() };

@@ -54,9 +54,10 @@ pub fn fur_ball() -> Scene {
     furred(sphere(0.5, 16), Quat::IDENTITY, Fur::default())
 }
 
-/// A hard-edged cube with a long coat.
+/// A hard-edged cube with a long coat of thick strands.
 pub fn fur_cube() -> Scene {
-    let fur = Fur { length: Length::Relative(0.12), ..Fur::default() };
+    // Strands of several pixels.
+    let fur = Fur { length: Length::Relative(0.2), strand_spacing: Length::Relative(0.06), ..Fur::default() };
     furred(cube(0.38), Quat::from_rotation_y(0.5), fur)
 }
 

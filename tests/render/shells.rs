@@ -17,6 +17,18 @@ use vair::render::Picture;
 const LAYERS: u32 = 6;
 const HALF_M: f32 = 0.4;
 
+/// Steps to the eight pixels around one: where all agree, no edge is near.
+pub const AROUND: [DVec2; 8] = [
+    DVec2::X,
+    DVec2::NEG_X,
+    DVec2::Y,
+    DVec2::NEG_Y,
+    DVec2::ONE,
+    DVec2::NEG_ONE,
+    DVec2::new(1.0, -1.0),
+    DVec2::new(-1.0, 1.0),
+];
+
 /// A coat that shows heights: red root, green tip, no light of its own, nothing that bends.
 pub fn height_coat() -> Fur {
     Fur {
@@ -76,7 +88,14 @@ impl Shells<'_> {
     }
 
     /// Compares all pixels that are not within one pixel of an edge.
-    fn compare(&self, what: &str, picture: &Picture, half_m: f64, backwards: Vec3, up: Vec3) -> Vec<Result<(), String>> {
+    fn compare(
+        &self,
+        what: &str,
+        picture: &Picture,
+        half_m: f64,
+        backwards: Vec3,
+        up: Vec3,
+    ) -> Vec<Result<(), String>> {
         let axes = camera_axes(backwards, up).as_dmat3();
         let size = DVec2::new(picture.size[0].into(), picture.size[1].into());
         let expected_at = |pixel: DVec2| {
@@ -89,8 +108,7 @@ impl Shells<'_> {
             for x in 0..picture.size[0] {
                 let middle = DVec2::new(x.into(), y.into()) + 0.5;
                 let expected = expected_at(middle);
-                let around = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y, DVec2::ONE, DVec2::NEG_ONE];
-                if around.iter().all(|&step| expected_at(middle + step) == expected) {
+                if AROUND.iter().all(|&step| expected_at(middle + step) == expected) {
                     let found = shown_height(picture.radiance(x, y));
                     checks.push(same_height(&format!("{what}: pixel {x}, {y}"), found, expected, self.layers));
                 }
@@ -98,7 +116,10 @@ impl Shells<'_> {
         }
         assert!(checks.len() * 2 > picture.radiance.len(), "{what}: only {} pixels can be compared", checks.len());
         let heights = (0..picture.radiance.len()).filter_map(|i| shown_height(picture.radiance[i]));
-        assert!(heights.clone().any(|h| h > 0.9) || self.layers < 5, "{what}: the outermost shell is not in the picture");
+        assert!(
+            heights.clone().any(|h| h > 0.9) || self.layers < 5,
+            "{what}: the outermost shell is not in the picture"
+        );
         checks
     }
 }

@@ -66,7 +66,11 @@ fn check_cells(device: &mut Headless, to_light: Vec3) -> Vec<Result<(), String>>
             let normal = (tilt(view_deg) * Vec3::Z).as_dvec3();
             let l = to_light.as_dvec3();
             let expected = radiance(surface, AMBIENT, normal, DVec3::Z, l, irradiance.as_dvec3());
-            close(&format!("{surface:?} at {view_deg} degrees, light {to_light}"), picture.radiance(pixel[0], pixel[1]), expected)
+            close(
+                &format!("{surface:?} at {view_deg} degrees, light {to_light}"),
+                picture.radiance(pixel[0], pixel[1]),
+                expected,
+            )
         })
         .collect()
 }
@@ -75,7 +79,13 @@ fn check_cells(device: &mut Headless, to_light: Vec3) -> Vec<Result<(), String>>
 fn a_lit_quad_has_the_radiance_of_its_brdf() {
     let from = |angle_deg: f32| Vec3::new(angle_deg.to_radians().sin(), 0.0, angle_deg.to_radians().cos());
     // Into the mirror at 0 degrees; beside the mirror at 45 by about the smallest lobe; across; grazing; from behind.
-    let lights = [Vec3::Z, from(90.1), Vec3::new(0.5, 0.6, 0.62).normalize(), from(-88.0), Vec3::new(0.3, 0.1, -0.9).normalize()];
+    let lights = [
+        Vec3::Z,
+        from(90.1),
+        Vec3::new(0.5, 0.6, 0.62).normalize(),
+        from(-88.0),
+        Vec3::new(0.3, 0.1, -0.9).normalize(),
+    ];
     headless(|device| all_hold(lights.into_iter().flat_map(|to_light| check_cells(device, to_light))));
 }
 
@@ -124,7 +134,8 @@ fn a_mirrored_node_keeps_its_front_and_its_light() {
     let to_light = Vec3::new(-0.6, 0.3, 0.74).normalize();
     let material = Material { roughness: 0.3, ..plain() };
     headless(|device| {
-        for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::splat(-1.0), Vec3::new(2.0, 1.0, 3.0)] {
+        for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::splat(-1.0), Vec3::new(2.0, 1.0, 3.0)]
+        {
             // Mirrored along its own normal, the quad faces the other way: turn it to the camera again.
             let rotation = if scale.z < 0.0 { tilt(180.0 + 30.0) } else { tilt(30.0) };
             let transform = Transform::Trs { translation: Vec3::ZERO, rotation, scale };

@@ -48,8 +48,10 @@ fn compare(picture: &Picture, map: &TextureRef, wrap: [Wrap; 2]) -> Vec<Result<(
     let mut checks = Vec::new();
     for y in 0..picture.size[1] {
         for x in 0..picture.size[0] {
-            let uv = (DVec2::new(x.into(), y.into()) + 0.5) / DVec2::new(picture.size[0].into(), picture.size[1].into());
-            let uv = transformed(uv, map.offset.as_dvec2(), map.rotation.into(), map.scale.as_dvec2()) * f64::from(SIDE);
+            let uv =
+                (DVec2::new(x.into(), y.into()) + 0.5) / DVec2::new(picture.size[0].into(), picture.size[1].into());
+            let uv =
+                transformed(uv, map.offset.as_dvec2(), map.rotation.into(), map.scale.as_dvec2()) * f64::from(SIDE);
             if (uv - uv.round()).abs().min_element() < 0.02 {
                 continue;
             }
@@ -57,7 +59,13 @@ fn compare(picture: &Picture, map: &TextureRef, wrap: [Wrap; 2]) -> Vec<Result<(
             let row = wrapped(uv.y.floor() as i64, wrap[1]);
             let texel = texels[row * SIDE as usize + column];
             let decoded = DVec3::from_array([0, 1, 2].map(|i| linear_from_srgb(f64::from(texel[i]) / 255.0)));
-            checks.push(within(&format!("pixel {x}, {y} shows texel {column}, {row}"), picture.radiance(x, y), decoded, 1e-3, DECODED));
+            checks.push(within(
+                &format!("pixel {x}, {y} shows texel {column}, {row}"),
+                picture.radiance(x, y),
+                decoded,
+                1e-3,
+                DECODED,
+            ));
         }
     }
     assert!(checks.len() * 10 > picture.radiance.len() * 7, "only {} pixels can be compared", checks.len());
@@ -89,7 +97,8 @@ fn a_second_uv_set_is_read_where_the_texture_says() {
 
 #[test]
 fn transforms_turn_scale_and_move() {
-    let map = TextureRef { offset: Vec2::new(0.13, -0.21), rotation: 0.5, scale: Vec2::new(2.3, 1.7), ..untransformed() };
+    let map =
+        TextureRef { offset: Vec2::new(0.13, -0.21), rotation: 0.5, scale: Vec2::new(2.3, 1.7), ..untransformed() };
     let scene = textured(quad(0.5, 0.5), NEAREST, |texture| *texture = map);
     headless(|device| {
         let picture = device.picture(&scene, &options([32, 32], 1));

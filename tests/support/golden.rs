@@ -30,6 +30,13 @@ pub struct Difference {
     pub flip_p99: f64,
 }
 
+impl std::fmt::Display for Difference {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { outlier_share, largest, flip_mean, flip_p99 } = self;
+        write!(f, "{outlier_share:.4} outliers, {largest} the largest, FLIP {flip_mean:.4} mean, {flip_p99:.4} at 99 %")
+    }
+}
+
 /// Folder of the committed goldens.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden")
@@ -48,7 +55,10 @@ pub fn compare(folder: &Path, name: &str, picture: &Picture, limits: &Limits) ->
         .into_rgba8();
     let size = [golden.width(), golden.height()];
     if size != picture.size {
-        return Err(format!("golden {name} is {size:?} pixels large and the picture {:?}; tools/bless remakes it", picture.size));
+        return Err(format!(
+            "golden {name} is {size:?} pixels large and the picture {:?}; tools/bless remakes it",
+            picture.size
+        ));
     }
     let (difference, flip) = measure(&golden, picture, limits.max_difference);
     let is_near = difference.outlier_share <= limits.outlier_share
@@ -58,7 +68,7 @@ pub fn compare(folder: &Path, name: &str, picture: &Picture, limits: &Limits) ->
         return Ok(difference);
     }
     let kept = keep(name, picture, &flip);
-    Err(format!("{name} is not its golden: {difference:?} is beyond {limits:?}; see {kept}"))
+    Err(format!("{name} is not its golden: {difference}; beyond {limits:?}; see {kept}"))
 }
 
 fn measure(golden: &image::RgbaImage, picture: &Picture, max_difference: u8) -> (Difference, nv_flip::FlipImageFloat) {

@@ -44,7 +44,11 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     for ((mesh, primitive), streams) in &plan.streams {
         line(format!("  mesh {mesh}.{primitive}: {streams:?}"));
     }
-    line(format!("bytes: {} of streams, {} of indices", plan.stream_bytes(&scene.asset), plan.index_bytes(&scene.asset)));
+    line(format!(
+        "bytes: {} of streams, {} of indices",
+        plan.stream_bytes(&scene.asset),
+        plan.index_bytes(&scene.asset)
+    ));
     line("textures:".to_owned());
     for texture in &plan.textures {
         let coding = if texture.srgb { "colour" } else { "data" };
