@@ -9,14 +9,18 @@ use vair::material::reference::color::srgb_from_linear;
 use vair::material::reference::tonemap;
 use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
 
+/// The twin of a tone curve.
+fn curve(operator: Tonemap, radiance: DVec3) -> DVec3 {
+    match operator {
+        Tonemap::None => tonemap::none(radiance),
+        Tonemap::Aces => tonemap::aces(radiance),
+        Tonemap::Agx => tonemap::agx(radiance),
+        Tonemap::Neutral => tonemap::neutral(radiance),
+    }
+}
+
 #[test]
 fn tone_curves_and_exposure_are_those_of_the_twins() {
-    let curves: [(Tonemap, fn(DVec3) -> DVec3); 4] = [
-        (Tonemap::None, tonemap::none),
-        (Tonemap::Aces, tonemap::aces),
-        (Tonemap::Agx, tonemap::agx),
-        (Tonemap::Neutral, tonemap::neutral),
-    ];
     // One column a colour, from darkness to far beyond white.
     let colors: Vec<Vec3> =
         (0..16).map(|i| Vec3::new(1.0, 0.6, 0.2) * 0.002 * 2f32.powi(i) + Vec3::splat(0.001 * i as f32)).collect();
@@ -28,7 +32,7 @@ fn tone_curves_and_exposure_are_those_of_the_twins() {
     }
     let scene = stage.scene();
     headless(|device| {
-        for (operator, curve) in curves {
+        for operator in [Tonemap::None, Tonemap::Aces, Tonemap::Agx, Tonemap::Neutral] {
             for exposure_ev in [-2.0, 0.0, 1.5] {
                 let frame = FrameOptions { tonemap: operator, exposure_ev, ..options(size, 1) };
                 let picture = device.picture(&scene, &frame);
@@ -36,7 +40,7 @@ fn tone_curves_and_exposure_are_those_of_the_twins() {
                     // What the target holds: the colour as half floats.
                     let radiance = picture.radiance(x as u32, 0).truncate();
                     assert!((radiance - *color).length() <= 1e-3 * color.length(), "{radiance} is not {color}");
-                    let display = curve(radiance.as_dvec3() * 2f64.powf(exposure_ev.into()));
+                    let display = curve(operator, radiance.as_dvec3() * 2f64.powf(exposure_ev.into()));
                     let pixel = picture.pixel(x as u32, 0);
                     for channel in 0..3 {
                         let expected = 255.0 * srgb_from_linear(display[channel]);

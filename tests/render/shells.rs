@@ -124,21 +124,37 @@ impl Shells<'_> {
     }
 }
 
-fn check(
-    device: &mut Headless,
-    what: &str,
+/// A coat on a square in the XY plane.
+struct Coat {
     fur: Fur,
     transform: Transform,
     primitive: Primitive,
-    texel: Option<u8>,
+    /// Red of the height map, if there is one.
+    height_texel: Option<u8>,
+    /// Half a side in the world.
     half_m: f32,
+}
+
+impl Coat {
+    fn new(fur: Fur, transform: Transform) -> Self {
+        let Transform::Trs { scale, .. } = transform else { panic!("placed by translation, rotation and scale") };
+        Self { fur, transform, primitive: quad(HALF_M, HALF_M), height_texel: None, half_m: HALF_M * scale.x }
+    }
+}
+
+/// Shows a coat and compares it with shells displaced by a function of their height.
+fn check(
+    device: &mut Headless,
+    what: &str,
+    coat: Coat,
     displacement: &dyn Fn(f64) -> DVec3,
 ) -> Vec<Result<(), String>> {
+    let Coat { fur, transform, primitive, height_texel, half_m } = coat;
     let (backwards, up, view_half_m) = (Vec3::new(0.5, -0.6, 0.8), Vec3::Y, 1.3);
     let mut stage = Stage::default();
     stage.parallel_camera(view_half_m, backwards, up);
     let white = stage.texel([255; 4]);
-    let height_map = texel.map(|texel| stage.texel([texel, 0, 255, 255]));
+    let height_map = height_texel.map(|texel| stage.texel([texel, 0, 255, 255]));
     let material = stage.material(plain());
     stage.object(primitive, material, transform);
     let mut scene = stage.scene();
@@ -165,8 +181,7 @@ fn straight_shells_lie_in_the_middle_of_their_slabs() {
     headless(|device| {
         let mut along_z = |what, fur, scale: f32, length_m: f64| {
             let displacement = move |height: f64| DVec3::Z * height * length_m;
-            let quad = quad(HALF_M, HALF_M);
-            all_hold(check(device, what, fur, still(scale), quad, None, HALF_M * scale, &displacement));
+            all_hold(check(device, what, Coat::new(fur, still(scale)), &displacement));
         };
         along_z("metres", height_coat(), 1.0, 0.5);
         along_z("metres on a scaled node", height_coat(), 2.0, 0.5);
@@ -183,13 +198,14 @@ fn vertex_opacity_and_height_map_shorten() {
         let mut faded = quad(HALF_M, HALF_M);
         faded.vertices.colors = vec![Vec4::new(1.0, 1.0, 1.0, 0.5); 4];
         let displacement = |height: f64| DVec3::Z * height * 0.25;
-        all_hold(check(device, "vertex opacity", height_coat(), still(1.0), faded, None, HALF_M, &displacement));
+        let coat = Coat { primitive: faded, ..Coat::new(height_coat(), still(1.0)) };
+        all_hold(check(device, "vertex opacity", coat, &displacement));
         for strength in [1.0, 0.5] {
             let fur = Fur { height_strength: strength, ..height_coat() };
             let length_m = 0.5 * (1.0 + f64::from(strength) * (half - 1.0));
             let displacement = move |height: f64| DVec3::Z * height * length_m;
-            let quad = quad(HALF_M, HALF_M);
-            all_hold(check(device, "height map", fur, still(1.0), quad, Some(128), HALF_M, &displacement));
+            let coat = Coat { height_texel: Some(128), ..Coat::new(fur, still(1.0)) };
+            all_hold(check(device, "height map", coat, &displacement));
         }
     });
 }
@@ -218,9 +234,8 @@ fn a_force_bends_strands_to_arcs_of_the_same_length() {
                 0.5 * (sideways * aside + DVec3::Z * up)
             };
             let transform = Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE };
-            let quad = quad(HALF_M, HALF_M);
             let what = format!("force {force} {strength} {space:?}");
-            all_hold(check(device, &what, fur, transform, quad, None, HALF_M, &displacement));
+            all_hold(check(device, &what, Coat::new(fur, transform), &displacement));
         }
     });
 }
