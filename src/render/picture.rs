@@ -117,3 +117,42 @@ impl PictureFormat {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture() -> Picture {
+        Picture { size: [2, 1], rgba: vec![1, 2, 3, 255, 4, 5, 6, 255], radiance: Vec::new(), background: None }
+    }
+
+    #[test]
+    fn a_saved_picture_reads_back_and_leaves_nothing_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        picture().save(&path).unwrap();
+        assert_eq!(image::open(&path).unwrap().into_rgba8().into_raw(), picture().rgba);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_saved_picture_is_as_readable_as_any_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (saved, plain) = (folder.path().join("saved.png"), folder.path().join("plain.txt"));
+        picture().save(&saved).unwrap();
+        std::fs::write(&plain, "").unwrap();
+        let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&saved), mode(&plain));
+    }
+
+    #[test]
+    fn other_endings_and_absent_radiance_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(picture().save(folder.path().join("picture.gif")), Err(RenderError::Ending { .. })));
+        assert!(matches!(picture().save(folder.path().join("picture.exr")), Err(RenderError::Encode { .. })));
+        assert!(matches!(picture().save(folder.path().join("nowhere/picture.png")), Err(RenderError::Write { .. })));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,31 @@
+//! Promise: a scene becomes the picture that the formulas say, on a real device, without a word from the validation
+//! layer.
+//!
+//! Needs a Vulkan device and the validation layer; without them these tests fail and say what to install.
+#[path = "../support/golden.rs"]
+mod golden;
+#[path = "../support/headless.rs"]
+mod headless;
+#[path = "../support/limit.rs"]
+mod limit;
+#[path = "../support/plan_text.rs"]
+mod plan_text;
+#[path = "../support/stage.rs"]
+mod stage;
+
+mod blending;
+mod camera;
+mod coat;
+mod deform;
+mod determinism;
+mod display;
+mod edges;
+mod goldens;
+mod light;
+mod plans;
+mod planted;
+mod scenes;
+mod shells;
+mod surface;
+mod texture;
+mod variants;

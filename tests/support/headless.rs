@@ -1,0 +1,43 @@
+//! A renderer without a window, under validation and synchronization validation.
+
+use vair::gpu::{Gpu, GpuOptions};
+use vair::render::{FrameOptions, FrameReport, Picture, Renderer};
+use vair::scene::Scene;
+
+/// A renderer under the validation layer; [`headless`] lends one.
+pub struct Headless {
+    /// The renderer.
+    pub renderer: Renderer,
+}
+
+impl Headless {
+    /// One picture with its linear radiance.
+    pub fn picture(&mut self, scene: &Scene, options: &FrameOptions) -> Picture {
+        self.reported(scene, options).0
+    }
+
+    /// One picture with its linear radiance, and its report.
+    pub fn reported(&mut self, scene: &Scene, options: &FrameOptions) -> (Picture, FrameReport) {
+        self.renderer.render_reported(scene, options, true).unwrap_or_else(|error| panic!("{error}"))
+    }
+}
+
+/// Lends a renderer to `check` and fails when the validation layer says anything, up to the renderer's end. Being
+/// lent, it cannot outlive the look at the messages. Without a device or the layer it fails, too.
+#[track_caller]
+pub fn headless(check: impl FnOnce(&mut Headless)) {
+    let messages = validation_messages(check);
+    assert!(messages.is_empty(), "the validation layer says:\n{}", messages.join("\n"));
+}
+
+/// What the validation layer says about `check`.
+pub fn validation_messages(check: impl FnOnce(&mut Headless)) -> Vec<String> {
+    let gpu = Gpu::new(&GpuOptions { validate: true, ..GpuOptions::default() })
+        .unwrap_or_else(|error| panic!("{error}; tools/setup installs what the tests need"));
+    let renderer = Renderer::with_gpu(gpu.clone()).unwrap_or_else(|error| panic!("{error}"));
+    let mut lent = Headless { renderer };
+    check(&mut lent);
+    drop(lent);
+    gpu.wait_idle().unwrap_or_else(|error| panic!("{error}"));
+    gpu.validation_messages()
+}
