@@ -9,8 +9,8 @@ use vair::scene::{self, Camera, CameraChoice};
 
 fn hero(asset: &Asset, aspect: f32) -> Camera {
     let pose = scene::pose(asset, None, 0.0);
-    let bounds = scene::world_bounds(asset, 0, &pose);
-    scene::camera(asset, 0, &pose, &CameraChoice::Named(GALLERY_CAMERA.into()), aspect, bounds)
+    let shown = scene::world_hull(asset, 0, &pose);
+    scene::camera(asset, 0, &pose, &CameraChoice::Named(GALLERY_CAMERA.into()), aspect, &shown)
         .expect("the gallery's camera")
 }
 
@@ -94,8 +94,9 @@ fn the_gallery_has_its_own_lights_and_finite_shells() {
 fn the_lit_quad_fills_the_picture_and_receives_pi() {
     let asset = procedural::lit_quad(Material::default());
     let pose = scene::pose(&asset, None, 0.0);
-    let bounds = scene::world_bounds(&asset, 0, &pose);
-    let camera = scene::camera(&asset, 0, &pose, &CameraChoice::Named("front".into()), 1.0, bounds).expect("front");
+    let shown = scene::world_hull(&asset, 0, &pose);
+    let bounds = shown.bounds();
+    let camera = scene::camera(&asset, 0, &pose, &CameraChoice::Named("front".into()), 1.0, &shown).expect("front");
     assert!(camera.is_orthographic);
     let corner = camera.clip_from_world().project_point3(bounds.max);
     assert!((corner.truncate() - glam::Vec2::ONE).length() < 1e-6 && corner.z > 0.0 && corner.z < 1.0);
@@ -149,11 +150,12 @@ fn a_skinned_box_moves_with_its_joint_and_so_does_the_framing() {
             // The box's middle is carried to x = 5; every normal still points away from it.
             assert!((*position - Vec3::X * 5.0).dot(*normal) > 0.49);
         }
-        let bounds = scene::world_bounds(&asset, 0, &pose);
+        let shown = scene::world_hull(&asset, 0, &pose);
+        let bounds = shown.bounds();
         assert!((bounds.center() - Vec3::X * 5.0).length() < 1e-5);
         assert!((bounds.half_extent() - Vec3::new(0.5 * 2f32.sqrt(), 0.5 * 2f32.sqrt(), 0.5)).length() < 1e-5);
-        let camera = scene::camera(&asset, 0, &pose, &CameraChoice::Auto, 16.0 / 9.0, bounds).expect("a view");
-        for corner in bounds.corners() {
+        let camera = scene::camera(&asset, 0, &pose, &CameraChoice::Auto, 16.0 / 9.0, &shown).expect("a view");
+        for &corner in shown.points() {
             let shown = camera.clip_from_world().project_point3(corner);
             assert!(shown.truncate().abs().max_element() <= 0.921 && shown.z > 0.0 && shown.z < 1.0);
         }

@@ -1,11 +1,14 @@
 // Where strands stand, how thick they are at a height, and how a strand scatters light.
 // Needs hash.glsl.
 
-// Feature points are jittered by this share of a cell to either side of its middle.
-const float STRAND_JITTER = 0.25;
+// Feature points are jittered by this share of a cell to either side of its middle: over the whole cell, so that no
+// surface, however it cuts the lattice, sees bands of denser or thicker strands.
+const float STRAND_JITTER = 0.5;
 // Strands root in points at most this far (in cells) off the surface; one point a cell then makes one strand
-// per spacing squared of surface.
+// per spacing squared of surface. Half a cell is also as far as the eight nearest cells are sure to tell.
 const float STRAND_REACH = 0.5;
+// Longest half of a view ray's segment (in cells) that strands are looked up along.
+const float STRAND_SEGMENT = 0.5;
 
 struct StrandSample {
     float profile; // 1 on the axis of a full-length strand, falling linearly to 0 at its root radius
@@ -46,12 +49,12 @@ StrandSample strand_field(vec3 position_in_cells, vec3 normal, float radius_in_c
     return nearest;
 }
 
-// Share of a surface that the procedural strands cover at a threshold, overlaps counted as chance.
-// Mean over the offset h in [-1, 1] of (1 - h^2)^2 is 8/15; over full lengths f in [.75, 1] of
-// max(1 - t / f, 0)^2: taken at their mean, f = 7/8.
-float strand_mean_coverage(float threshold, float radius_in_cells) {
-    float thickness = max(1.0 - threshold / 0.875, 0.0);
-    float area = 3.14159265 * radius_in_cells * radius_in_cells * thickness * thickness * (8.0 / 15.0);
+// Share of a surface that the procedural strands cover at a threshold, swept over a segment of that half length (in
+// cells), overlaps counted as chance. Over a strand's height h off the surface in [-1, 1], its radius 1 - h^2 has the
+// mean 2/3 and its square 8/15; full lengths in [.75, 1] are taken at their mean, 7/8.
+float strand_mean_coverage(float threshold, float radius_in_cells, float half_length_in_cells) {
+    float radius = radius_in_cells * max(1.0 - threshold / 0.875, 0.0);
+    float area = 3.14159265 * radius * radius * (8.0 / 15.0) + 4.0 * radius * half_length_in_cells * (2.0 / 3.0);
     return 1.0 - exp(-area);
 }
 
@@ -62,11 +65,17 @@ float strand_threshold(float height, float cutoff_start, float cutoff_end, bool 
     return mix(cutoff_start, cutoff_end, rise);
 }
 
+// How far strands are below the eye's resolution: 0 each is seen, 1 only their mean is. `slope` is the change of the
+// profile over a pixel.
+float strand_unresolved(float slope) {
+    return smoothstep(0.75, 2.0, slope);
+}
+
 // Opacity of a profile at a threshold, one pixel wide at the edge. `slope` is the change of the profile over a
 // pixel; below the eye's resolution (slope > 1) it fades to the mean coverage.
 float strand_opacity(float profile, float threshold, float slope, float mean_coverage) {
     float edge = clamp((profile - threshold) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
-    return mix(edge, mean_coverage, smoothstep(0.75, 2.0, slope));
+    return mix(edge, mean_coverage, strand_unresolved(slope));
 }
 
 // Strand bent to a circular arc that keeps its length: x = sideways, y = along the root direction, both over the
@@ -144,7 +153,7 @@ vec3 strand_scattering(vec3 color, vec3 normal, vec3 tangent, vec3 to_eye, vec3 
     float wrapped = max(dot(normal, to_light) + STRAND_WRAP, 0.0) / ((1.0 + STRAND_WRAP) * (1.0 + STRAND_WRAP));
     float reflected = STRAND_REFLECTED * specular;
     float returned = STRAND_RETURNED * specular;
-    vec3 diffuse = color * ((1.0 - reflected - returned) * 0.318309886 * wrapped * mix(0.5, 1.0, across));
+    vec3 diffuse = color * ((1.0 - reflected - returned) * 0.318309886 * wrapped * mix(0.7, 1.05, across));
     float facing = clamp(wrapped * 4.0, 0.0, 1.0);
     float white = reflected * strand_lobe(tangent, to_eye, to_light, -STRAND_SCALE_TILT, variance);
     float colored = returned * strand_lobe(tangent, to_eye, to_light, 1.5 * STRAND_SCALE_TILT, 4.0 * variance);

@@ -10,9 +10,7 @@ layout(local_size_x = 64) in;
 struct DeformDraw {
     uint vertex_count;
     uint influences_per_vertex; // joints a vertex; a multiple of 4
-    uint first_joint;           // of this skin in the list of joint matrices
-    uint target_count;          // active morph targets
-    uint first_weight;          // of this instance in the list of weights
+    uint target_count;          // morph targets
 };
 layout(push_constant) uniform DeformBlock { DeformDraw draw; };
 
@@ -45,7 +43,7 @@ void main() {
 #ifdef MORPH
     for (uint index = 0u; index < draw.target_count; ++index) {
         uint delta = (index * draw.vertex_count + vertex) * 3u;
-        value += weights[draw.first_weight + index] * vec3(deltas[delta], deltas[delta + 1u], deltas[delta + 2u]);
+        value += weights[index] * vec3(deltas[delta], deltas[delta + 1u], deltas[delta + 2u]);
     }
 #endif
     vec3 fallback = value;
@@ -54,7 +52,7 @@ void main() {
     uint influence = vertex * draw.influences_per_vertex;
     for (uint index = 0u; index < draw.influences_per_vertex; ++index) {
         float weight = influence_weight[influence + index];
-        if (weight > 0.0) { blended += weight * world_from_bind[draw.first_joint + influence_joint[influence + index]]; }
+        if (weight > 0.0) { blended += weight * world_from_bind[influence_joint[influence + index]]; }
     }
     if (stream == 0u) { value = (blended * vec4(value, 1.0)).xyz; }
     else if (stream == 1u) { value = normal_matrix(mat3(blended)) * value; }

@@ -17,7 +17,7 @@ layout(constant_id = 8) const bool HAS_DISTRIBUTION_MAP = false;
 layout(constant_id = 9) const bool HAS_BASE_COLOR_MAP = false;
 layout(constant_id = 10) const bool HAS_SPOT_MAP = false;
 layout(constant_id = 11) const bool HAS_LOCKS = false;       // clump or curl
-layout(constant_id = 12) const bool HARD_CUT = false;        // cutout: opacity is 0 or 1 but for the edge
+layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity near by, too, not only far away
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
@@ -57,7 +57,7 @@ vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
     return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
 }
 
-// Locks: strands gather towards the middle of their lock and twist around it, more so at the tip. Gives the root
+// Locks: strands gather towards the middle of their lock and coil in step with it, more so at the tip. Gives the root
 // that the strand passing here grew from.
 vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
     const float lock_size = 9.0;
@@ -79,9 +79,11 @@ vec3 lock_root(vec3 position_in_cells, vec3 normal, float height) {
     }
     vec3 from_middle = -(middle - dot(middle, normal) * normal) * lock_size;
     float gather = 1.0 / max(1.0 - 0.85 * fur.clump * height, 0.1);
-    float turn = fur.curl * 6.28318531 * height * (own_random < 0.5 ? -1.0 : 1.0) * (0.6 + 0.4 * own_random);
-    vec3 twisted = from_middle * cos(turn) + cross(normal, from_middle) * sin(turn);
-    return position_in_cells + (twisted * gather - from_middle);
+    vec3 root = position_in_cells + from_middle * (gather - 1.0);
+    // A coil of two turns whose radius grows to a cell; at the skin it is nought, so roots hold still.
+    vec3 side = normalize(abs(normal.y) < 0.9 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    float turn = 12.5663706 * (own_random < 0.5 ? -height : height) + 6.28318531 * own_random;
+    return root + fur.curl * height * (cos(turn) * side + sin(turn) * cross(normal, side));
 }
 
 void main() {
@@ -97,50 +99,62 @@ void main() {
     vec3 step_y = dFdy(position_in_world);
     float slab_m = height_and_length.y / float(fur.layers);
     float along_strand = max(dot(strand, normal), 0.1);
-    float along_ray = max(cosine_to_eye, 0.05);
+    // Shells that face away are drawn, too: past the outline their strands stand out over it.
+    float along_ray = cosine_to_eye < 0.0 ? min(cosine_to_eye, -0.05) : max(cosine_to_eye, 0.05);
     vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
     vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
 
     float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
+    vec3 rest_x = dFdx(root_in_rest);
+    vec3 rest_y = dFdy(root_in_rest);
+    // The narrower side of the pixel: the wider one, at grazing angles, runs along the slab's segment.
+    float pixel_in_rest = sqrt(min(dot(rest_x, rest_x), dot(rest_y, rest_y)));
     float own_random = 0.5;
     float opacity;
+    float slope;
 #ifdef MAPS
     if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
         vec2 gradient_x = dFdx(map_uv);
         vec2 gradient_y = dFdy(map_uv);
         float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
-        opacity = strand_opacity(map, threshold, fwidth(map), map >= threshold ? 1.0 : 0.0);
+        slope = fwidth(map);
+        opacity = strand_opacity(map, threshold, slope, map >= threshold ? 1.0 : 0.0);
         own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
     } else
 #endif
     {
         float cells_per_unit = 1.0 / fur.strand_spacing;
         vec3 rest_normal = normalize(direction_in_rest);
-        vec3 cell_x = dFdx(root_in_rest) * cells_per_unit;
-        vec3 cell_y = dFdy(root_in_rest) * cells_per_unit;
-        vec3 half_segment = in_steps.x * cell_x + in_steps.y * cell_y;
-        float segment_length = length(half_segment);
-        if (segment_length > 0.5) { half_segment *= 0.5 / segment_length; }
+        vec3 half_segment = (in_steps.x * rest_x + in_steps.y * rest_y) * cells_per_unit;
+        float half_length = length(half_segment);
+        float seen_length = min(half_length, STRAND_SEGMENT);
+        half_segment *= seen_length / max(half_length, 1e-6);
         vec3 in_cells = root_in_rest * cells_per_unit;
         if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height); }
         StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
-        // The narrower footprint: the wider one, at grazing angles, runs along the segment.
-        float footprint = sqrt(min(dot(cell_x, cell_x), dot(cell_y, cell_y)));
-        opacity = strand_opacity(field.profile, threshold, footprint / fur.strand_radius,
-                                 strand_mean_coverage(threshold, fur.strand_radius));
+        slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
+        opacity = strand_opacity(field.profile, threshold, slope,
+                                 strand_mean_coverage(threshold, fur.strand_radius, seen_length));
+        // Strands along the rest of a grazing ray: what they hide is known, if not where they stand.
+        float hidden = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, half_length);
+        float seen = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, seen_length);
+        opacity = 1.0 - (1.0 - opacity) * (hidden / seen);
         own_random = field.random;
     }
     // Each factor lies in [0, 1], so their product does.
     opacity *= (1.0 - fur.tip_fade * height) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 
     uint samples = SAMPLE_COUNT;
+    float unresolved = strand_unresolved(slope);
     int mask = -1;
     if (BLEND) {
         if (opacity <= 0.0) { discard; }
     } else {
-        if (HARD_CUT && samples == 1u) { opacity = opacity >= 0.5 ? 1.0 : 0.0; }
-        mask = coverage_mask(opacity, samples, uvec2(gl_FragCoord.xy));
+        // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
+        float grain = coverage_grain(root_in_rest, pixel_in_rest);
+        float rounding = mix(0.5, grain, KEEP_PARTIAL ? 1.0 : unresolved);
+        mask = coverage_mask(opacity, samples, rounding, uvec2(gl_FragCoord.xy));
         if (mask == 0) { discard; }
     }
     gl_SampleMask[0] = mask;

@@ -5,6 +5,7 @@
 #include "standard_material.glsl"
 #include "light.glsl"
 #include "uv.glsl"
+#include "hash.glsl"
 #include "coverage.glsl"
 #include "standard.glsl"
 
@@ -137,7 +138,7 @@ void main() {
         float slope = max(fwidth(color.a), 1e-4);
         float edge = samples == 1u ? (color.a >= material.alpha_cutoff ? 1.0 : 0.0)
                                    : clamp((color.a - material.alpha_cutoff) / slope + 0.5, 0.0, 1.0);
-        int mask = coverage_mask(edge, samples, uvec2(gl_FragCoord.xy));
+        int mask = coverage_mask(edge, samples, 0.5, uvec2(gl_FragCoord.xy));
         if (mask == 0) { discard; }
         gl_SampleMask[0] = mask;
     } else {

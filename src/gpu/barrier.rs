@@ -161,6 +161,11 @@ pub(crate) fn at_start() -> Dependency {
     memory(S::ALL_COMMANDS, A::MEMORY_WRITE, S::ALL_COMMANDS, A::MEMORY_READ | A::MEMORY_WRITE)
 }
 
+/// Order alone, no memory.
+pub(crate) fn order() -> Dependency {
+    memory(S::ALL_COMMANDS, A::NONE, S::ALL_COMMANDS, A::NONE)
+}
+
 /// At the end of a command buffer: the host may read what was written.
 pub(crate) fn at_end() -> Dependency {
     memory(S::ALL_COMMANDS, A::MEMORY_WRITE, S::HOST, A::HOST_READ)

@@ -302,13 +302,24 @@ impl Encoder {
         if let Some(recording) = &mut self.recording {
             recording.begin_pass(index, kind != PassKind::Copy);
         }
+        self.fence_timestamp();
+    }
+
+    /// Keeps a timestamp apart from the work on either side. Tile-based devices, lavapipe among them, put work off until
+    /// somebody waits for it, and a timestamp between with it: a pass's time would be booked on another one.
+    fn fence_timestamp(&self) {
+        if self.recording.is_some() {
+            self.barriers(&[barrier::order().memory_barrier()], &[]);
+        }
     }
 
     pub(crate) fn end_pass(&mut self, kind: PassKind) {
         let index = self.passes.len().saturating_sub(1);
+        self.fence_timestamp();
         if let Some(recording) = &mut self.recording {
             recording.end_pass(index, kind != PassKind::Copy);
         }
+        self.fence_timestamp();
         let name_is_valid = self.passes.last().is_some_and(|pass| !pass.name.contains('\0'));
         if let Some(debug) = self.gpu.context().debug.as_ref().filter(|_| name_is_valid) {
             // SAFETY: ends the label that `begin_pass` began.

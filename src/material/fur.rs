@@ -62,11 +62,11 @@ crate::parameters! {
         force: Vec3 as Vector3 = Vec3::NEG_Y, (-1e3, 1e3), "", "Direction of a constant force, gravity by default.";
         force_strength: f32 as Number = 0.25, UNIT, "", "How far the force bends the strands, 1 = a right angle at the tip.";
         force_space: ForceSpace as OneOf<ForceSpace> = ForceSpace::World, UNBOUNDED, "", "The space of force: world or object.";
-        comb: Vec2 as Vector2 = Vec2::ZERO, (-1.0, 1.0), "", "Lie of the coat along tangent and bitangent, 1 = flat on the skin.";
+        comb: Vec2 as Vector2 = Vec2::ZERO, (-1.0, 1.0), "", "Lie of the coat, 1 = flat on the skin: around the vertical, and up along the surface.";
         comb_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: RG is the local lie, (lie + 1) / 2; added to comb.";
         blend: Blend as OneOf<Blend> = Blend::Cutout, UNBOUNDED, "", "How layers meet the frame: cutout, coverage or blend.";
-        curl: f32 as Number = 0.0, UNIT, "", "How far strands wind around their axis.";
-        clump: f32 as Number = 0.0, UNIT, "", "How far tips of neighbouring strands draw together.";
+        curl: f32 as Number = 0.0, UNIT, "", "How far strands coil, 1 = by their own spacing.";
+        clump: f32 as Number = 0.0, UNIT, "", "How far tips of neighbouring strands draw together into locks.";
         specular: f32 as Number = 0.5, UNIT, "", "Strength of the highlight along the strands.";
         roughness: f32 as Number = 0.35, UNIT, "", "Roughness of the strands along their length.";
     }

@@ -1,5 +1,6 @@
 //! Images that presets make by formula, so that nothing has to be shipped. All tile.
 
+use super::reference::hash::pcg3d;
 use crate::asset::Image;
 use glam::Vec2;
 use std::f32::consts::TAU;
@@ -18,7 +19,7 @@ pub fn image(name: &str) -> Option<Image> {
 /// Pixels of each side.
 const SIZE: u32 = 512;
 /// Rosettes along each side of the tile.
-const CELLS: i32 = 7;
+const CELLS: i32 = 4;
 
 /// Coat of a leopard: broken rings of dark spots with a warmer heart, as weights in R (1 = spot).
 ///
@@ -44,7 +45,10 @@ fn rosettes(point: Vec2) -> f32 {
     for dy in -1..=1 {
         for dx in -1..=1 {
             let (i, j) = (cell.x as i32 + dx, cell.y as i32 + dy);
-            let random = |n: u32| hash(i.rem_euclid(CELLS) as u32, j.rem_euclid(CELLS) as u32, n);
+            let random = |n: u32| {
+                let [bits, ..] = pcg3d([i.rem_euclid(CELLS) as u32, j.rem_euclid(CELLS) as u32, n]);
+                (bits >> 8) as f32 / (1u32 << 24) as f32
+            };
             let centre = Vec2::new(i as f32 + 0.3 + 0.4 * random(0), j as f32 + 0.3 + 0.4 * random(1));
             weight = weight.max(rosette(point - centre, &random));
         }
@@ -63,7 +67,7 @@ fn rosette(offset: Vec2, random: &dyn Fn(u32) -> f32) -> f32 {
         return edge(0.62 * radius - distance);
     }
     let breaks = 0.5 + 0.5 * (3.0 * angle + turn(5)).sin() + 0.35 * (5.0 * angle + turn(6)).sin();
-    let width = 0.085 * (breaks * 1.6).clamp(0.0, 1.0);
+    let width = 0.115 * (breaks * 1.6).clamp(0.0, 1.0);
     edge(width - (distance - radius).abs()).max(0.25 * edge(radius - distance))
 }
 
@@ -71,21 +75,6 @@ fn rosette(offset: Vec2, random: &dyn Fn(u32) -> f32) -> f32 {
 fn edge(inside: f32) -> f32 {
     let x = (inside / 0.05 + 0.5).clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
-}
-
-/// Uniform in [0, 1), from integers alone (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering": pcg3d).
-fn hash(x: u32, y: u32, z: u32) -> f32 {
-    let step = |v: u32| v.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-    let [mut x, mut y, mut z] = [step(x), step(y), step(z)];
-    for round in 0..2 {
-        x = x.wrapping_add(y.wrapping_mul(z));
-        y = y.wrapping_add(z.wrapping_mul(x));
-        z = z.wrapping_add(x.wrapping_mul(y));
-        if round == 0 {
-            [x, y, z] = [x ^ (x >> 16), y ^ (y >> 16), z ^ (z >> 16)];
-        }
-    }
-    (x >> 8) as f32 / (1u32 << 24) as f32
 }
 
 #[cfg(test)]

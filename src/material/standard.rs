@@ -32,7 +32,7 @@ crate::parameters! {
         occlusion_strength: f32 as Number = 1.0, UNIT, "", "How much of the occlusion texture counts.";
         emissive: Vec3 as Rgb = Vec3::ZERO, (0.0, 1e6), "", "Linear radiance that the surface sends out; times the texture.";
         emissive_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Emission, sRGB-decoded.";
-        detail_albedo_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Secondary albedo with its own tiling, sRGB-decoded; 0.5 after decoding changes nothing, the base colour is multiplied by twice its value.";
+        detail_albedo_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Secondary albedo with its own tiling, sRGB-decoded; mid grey (0.5 as stored) changes nothing.";
         detail_normal_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: secondary normal map with its own tiling.";
         detail_normal_scale: f32 as Number = 1.0, (-10.0, 10.0), "", "Scale of the detail normal map's x and y.";
         double_sided: bool as Switch = false, UNBOUNDED, "", "Both faces are drawn, the back one with its normal flipped.";

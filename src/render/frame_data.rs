@@ -1,12 +1,13 @@
 //! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
 
+use super::Shot;
 use super::material::{CoatSize, fur_uniforms};
 use super::options::FrameOptions;
+use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan, fur_maps};
 use super::resources::Resources;
-use super::Shot;
 use super::stream::Stream;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
 use crate::material::Material;
 use crate::scene::{Camera, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
@@ -14,6 +15,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat3, Mat4};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// What one frame reads and no other.
 pub struct FrameData {
@@ -26,6 +28,10 @@ pub struct FrameData {
     pub deform_groups: Vec<BindGroup>,
     /// Frame and object bind groups by pipeline.
     pub shared_groups: HashMap<usize, (BindGroup, BindGroup)>,
+    /// The tone-mapping pipeline for this frame's target.
+    pub tonemap: PipelineSpec,
+    /// Its bind group.
+    pub tonemap_group: BindGroup,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -35,15 +41,32 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    pub fn new(gpu: &Gpu, resources: &Resources, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Self, GpuError> {
+    pub fn new(
+        gpu: &Gpu,
+        resources: &Resources,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        hdr: &Image,
+        tonemap: PipelineSpec,
+    ) -> Result<Self, GpuError> {
         let Shot { plan, pose, camera, lighting } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
         let frame = frame_uniforms(camera, lighting, options);
-        let objects: Vec<ObjectUniforms> = plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
+        let objects: Vec<ObjectUniforms> =
+            plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
+        let tonemap_group =
+            gpu.bind_group(resources.pipeline(&tonemap), 0, "tonemap", &[("hdr", Resource::Texture(hdr))])?;
         let mut data = Self {
+            tonemap,
+            tonemap_group,
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
-            lights: if lit { Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?) } else { None },
+            lights: if lit {
+                Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)
+            } else {
+                None
+            },
             objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
             deformed: HashMap::new(),
             deform_groups: Vec::new(),
@@ -72,22 +95,35 @@ impl FrameData {
         Ok(())
     }
 
-    fn bind_coat(&mut self, gpu: &Gpu, resources: &Resources, scene: &Scene, plan: &Plan, draw: &Draw) -> Result<(), GpuError> {
+    fn bind_coat(
+        &mut self,
+        gpu: &Gpu,
+        resources: &Resources,
+        scene: &Scene,
+        plan: &Plan,
+        draw: &Draw,
+    ) -> Result<(), GpuError> {
         let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
         let Material { standard, fur: Some(fur), name } = &scene.materials[material] else { return Ok(()) };
         let instance = &plan.instances[draw.instance];
-        let size = CoatSize {
-            rest_radius: scene.rest_radius(instance.mesh),
-            world_radius_m: scene.world_radius_m(instance),
-        };
-        let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, standard, size, layers)])?;
+        let size =
+            CoatSize { rest_radius: scene.rest_radius(instance.mesh), world_radius_m: scene.world_radius_m(instance) };
+        let uniforms =
+            filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, standard, size, layers)])?;
         let spec = &plan.pipelines[draw.pipeline];
         let group = resources.bind_material(scene, spec, name, ("FurBlock", &uniforms), &fur_maps(fur, standard))?;
         self.coat_groups.insert((draw.instance, draw.pipeline), group);
         Ok(())
     }
 
-    fn bind_deforms(&mut self, gpu: &Gpu, resources: &Resources, scene: &Scene, plan: &Plan, pose: &Pose) -> Result<(), GpuError> {
+    fn bind_deforms(
+        &mut self,
+        gpu: &Gpu,
+        resources: &Resources,
+        scene: &Scene,
+        plan: &Plan,
+        pose: &Pose,
+    ) -> Result<(), GpuError> {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let mut joints: HashMap<usize, Buffer> = HashMap::new();
         for deform in &plan.deforms {
@@ -95,17 +131,21 @@ impl FrameData {
             let index = (instance.mesh, instance.primitive);
             let count = scene.asset.meshes[index.0].primitives[index.1].vertices.positions.len();
             let bytes = (count as u64 * u64::from(deform.stream.stride())).max(4);
-            let target = gpu.buffer("deformed stream", bytes, storage | vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device)?;
+            let target =
+                gpu.buffer("deformed stream", bytes, storage | vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device)?;
             let mut offered = vec![
                 ("SourceStream", Resource::Buffer(&resources.streams[&(index, deform.stream)])),
                 ("TargetStream", Resource::Buffer(&target)),
             ];
             if let (Some(skin), Some((indices, weights))) = (instance.skin, resources.influences.get(&index)) {
-                if !joints.contains_key(&skin) {
-                    let matrices: Vec<[[f32; 4]; 4]> = joint_matrices(&scene.asset, skin, pose).iter().map(Mat4::to_cols_array_2d).collect();
-                    joints.insert(skin, filled(gpu, "joints", storage, &matrices)?);
-                }
-                offered.push(("JointList", Resource::Buffer(&joints[&skin])));
+                let buffer = match joints.entry(skin) {
+                    Entry::Occupied(known) => known.into_mut(),
+                    Entry::Vacant(new) => {
+                        let matrices = joint_matrices(&scene.asset, skin, pose);
+                        new.insert(filled(gpu, "joints", storage, &matrices)?)
+                    }
+                };
+                offered.push(("JointList", Resource::Buffer(buffer)));
                 offered.push(("InfluenceList", Resource::Buffer(indices)));
                 offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
             }
@@ -145,7 +185,11 @@ fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) 
 fn object_uniforms(world_from_object: Mat4) -> ObjectUniforms {
     let linear = Mat3::from_mat4(world_from_object);
     // Inverse transpose times |determinant|: defined for singular matrices, and right for mirrored ones.
-    let cofactors = Mat3::from_cols(linear.y_axis.cross(linear.z_axis), linear.z_axis.cross(linear.x_axis), linear.x_axis.cross(linear.y_axis));
+    let cofactors = Mat3::from_cols(
+        linear.y_axis.cross(linear.z_axis),
+        linear.z_axis.cross(linear.x_axis),
+        linear.x_axis.cross(linear.y_axis),
+    );
     let normal = if linear.determinant() < 0.0 { cofactors * -1.0 } else { cofactors };
     ObjectUniforms {
         world_from_object: world_from_object.to_cols_array_2d(),

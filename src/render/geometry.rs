@@ -11,10 +11,14 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
     match stream {
         Stream::Position => bytemuck::cast_slice(&vertices.positions).to_vec(),
         Stream::Normal => bytemuck::cast_slice(&vertices.normals).to_vec(),
-        Stream::Tangent => vertices.tangents.iter().flat_map(|tangent| bytemuck::cast::<_, [u8; 16]>(tangent.to_array())).collect(),
+        Stream::Tangent => {
+            vertices.tangents.iter().flat_map(|tangent| bytemuck::cast::<_, [u8; 16]>(tangent.to_array())).collect()
+        }
         Stream::Uv0 => bytemuck::cast_slice(&vertices.uv_sets[0]).to_vec(),
         Stream::Uv1 => bytemuck::cast_slice(&vertices.uv_sets[1]).to_vec(),
-        Stream::Color => vertices.colors.iter().flat_map(|color| bytemuck::cast::<_, [u8; 16]>(color.to_array())).collect(),
+        Stream::Color => {
+            vertices.colors.iter().flat_map(|color| bytemuck::cast::<_, [u8; 16]>(color.to_array())).collect()
+        }
         Stream::ShellDirection => bytemuck::cast_slice(&shell_directions_of_mesh(mesh)[primitive]).to_vec(),
     }
 }

@@ -28,6 +28,8 @@ pub use stream::Stream;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
+use frame::Frame;
+use frame_data::FrameData;
 use glam::Vec4;
 use resources::Resources;
 use std::path::PathBuf;
@@ -101,15 +103,17 @@ impl Shot {
         let asset = &scene.asset;
         let scene_index = options.scene.unwrap_or(asset.default_scene);
         let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {
-            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => options.time_s.rem_euclid(duration_s),
+            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => {
+                options.time_s.rem_euclid(duration_s)
+            }
             _ => options.time_s,
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
-        let bounds = scene::world_bounds(asset, scene_index, &pose);
+        let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
-            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, bounds)?,
+            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
             lighting: scene::lighting(asset, scene_index, &pose),
             plan: Plan::new(scene, instances, options),
             pose,
@@ -151,7 +155,8 @@ impl Renderer {
 
     /// Text of every pipeline made so far: whole state and interface, sorted.
     pub fn pipeline_descriptions(&self) -> Vec<String> {
-        let mut all: Vec<String> = self.resources.pipelines().map(|pipeline| pipeline.description().to_owned()).collect();
+        let mut all: Vec<String> =
+            self.resources.pipelines().map(|pipeline| pipeline.description().to_owned()).collect();
         all.sort();
         all
     }
@@ -168,7 +173,12 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Shot::new`] and of the device.
-    pub fn render_reported(&mut self, scene: &Scene, options: &FrameOptions, keep_radiance: bool) -> Result<(Picture, FrameReport), RenderError> {
+    pub fn render_reported(
+        &mut self,
+        scene: &Scene,
+        options: &FrameOptions,
+        keep_radiance: bool,
+    ) -> Result<(Picture, FrameReport), RenderError> {
         let start = Instant::now();
         let shot = Shot::new(scene, options)?;
         let target = self.take_picture_target(options.size)?;
@@ -201,12 +211,25 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Shot::new`] and of the device.
-    pub fn record(&mut self, encoder: &mut Encoder, scene: &Scene, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+    pub fn record(
+        &mut self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        options: &FrameOptions,
+        target: &Image,
+    ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
         self.record_shot(encoder, scene, &shot, options, target)
     }
 
-    fn record_shot(&mut self, encoder: &mut Encoder, scene: &Scene, shot: &Shot, options: &FrameOptions, target: &Image) -> Result<(), RenderError> {
+    fn record_shot(
+        &mut self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        target: &Image,
+    ) -> Result<(), RenderError> {
         if self.scene.replace(scene.id()) != Some(scene.id()) {
             self.resources.forget_scene();
         }
@@ -219,7 +242,12 @@ impl Renderer {
             None => Targets::new(&self.gpu, options)?,
         };
         let targets = self.targets.insert(targets);
-        frame::record(&self.gpu, encoder, scene, shot, options, &mut self.resources, targets, target)
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
+        self.resources.prepare(scene, &shot.plan)?;
+        self.resources.make_pipeline(&tonemap)?;
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, options, targets.hdr(), tonemap)?;
+        Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target }.record(encoder);
+        Ok(())
     }
 
     /// The picture's image; put it back into `self.picture` for the next frame.
@@ -252,7 +280,12 @@ fn decode_radiance(format: HdrFormat, bytes: &[u8]) -> Vec<Vec4> {
             .chunks_exact(4)
             .map(|texel| {
                 let word = u32::from_le_bytes([texel[0], texel[1], texel[2], texel[3]]);
-                Vec4::new(small_float(word & 0x7ff, 6), small_float((word >> 11) & 0x7ff, 6), small_float(word >> 22, 5), 1.0)
+                Vec4::new(
+                    small_float(word & 0x7ff, 6),
+                    small_float((word >> 11) & 0x7ff, 6),
+                    small_float(word >> 22, 5),
+                    1.0,
+                )
             })
             .collect(),
     }

@@ -101,7 +101,8 @@ impl PipelineSpec {
         let blend = standard.alpha_mode == AlphaMode::Blend;
 
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("COLOR", color)];
-        let fragment_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("DETAIL", detail), ("COLOR", color)];
+        let fragment_defines =
+            [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("DETAIL", detail), ("COLOR", color)];
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
@@ -148,7 +149,7 @@ impl PipelineSpec {
         let switches = [
             ("INNER_FIRST", blend),
             ("BLEND", blend),
-            ("HARD_CUT", fur.blend == Blend::Cutout),
+            ("KEEP_PARTIAL", fur.blend == Blend::Coverage),
             ("PARABOLOID", fur.shape == Shape::Paraboloid),
             ("HAS_LOCKS", fur.clump > 0.0 || fur.curl > 0.0),
             ("FORCE_IN_OBJECT", fur.force_space == ForceSpace::Object),

@@ -154,7 +154,12 @@ impl Plan {
 
         if let Some(fur) = fur {
             let layers = options.layers_of_coat(fur.layers);
-            self.add_draw(scene, index, PipelineSpec::fur(fur, &scene.materials[material].standard, geometry, options), DrawKind::Fur { material, layers });
+            self.add_draw(
+                scene,
+                index,
+                PipelineSpec::fur(fur, &scene.materials[material].standard, geometry, options),
+                DrawKind::Fur { material, layers },
+            );
             self.add_textures(scene, &fur_maps(fur, &scene.materials[material].standard));
         }
     }
@@ -201,7 +206,10 @@ impl Plan {
 
     /// Bytes of the index lists.
     pub fn index_bytes(&self, asset: &Asset) -> u64 {
-        self.streams.keys().map(|&(mesh, primitive)| asset.meshes[mesh].primitives[primitive].indices.len() as u64 * 4).sum()
+        self.streams
+            .keys()
+            .map(|&(mesh, primitive)| asset.meshes[mesh].primitives[primitive].indices.len() as u64 * 4)
+            .sum()
     }
 
     fn add_passes(&mut self) {

@@ -3,6 +3,7 @@
 use super::plan::{DrawKind, LeftOut, Plan};
 use crate::gpu::{FrameTimes, MemoryReport, PassTime};
 use crate::scene::Scene;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What one frame took.
 #[derive(Debug, Clone)]
@@ -35,30 +36,43 @@ pub struct CoatReport {
 }
 
 impl FrameReport {
-    pub(super) fn new(scene: &Scene, plan: &Plan, times: FrameTimes, frame_ms: f64, pipelines_ms: f64, memory: MemoryReport) -> Self {
-        Self { frame_ms, pipelines_ms, passes: times.passes, fur: coats(scene, plan), memory, left_out: plan.left_out.clone() }
+    pub(super) fn new(
+        scene: &Scene,
+        plan: &Plan,
+        times: FrameTimes,
+        frame_ms: f64,
+        pipelines_ms: f64,
+        memory: MemoryReport,
+    ) -> Self {
+        Self {
+            frame_ms,
+            pipelines_ms,
+            passes: times.passes,
+            fur: coats(scene, plan),
+            memory,
+            left_out: plan.left_out.clone(),
+        }
     }
 }
 
 fn coats(scene: &Scene, plan: &Plan) -> Vec<CoatReport> {
-    let mut coats: Vec<(usize, CoatReport, Vec<(usize, usize)>)> = Vec::new();
+    let mut coats: BTreeMap<usize, CoatReport> = BTreeMap::new();
+    let mut counted = BTreeSet::new();
     for draw in plan.fur.iter().chain(&plan.transparent) {
         let DrawKind::Fur { material, layers } = draw.kind else { continue };
         let instance = &plan.instances[draw.instance];
-        let index = (instance.mesh, instance.primitive);
-        let vertices = scene.asset.meshes[index.0].primitives[index.1].vertices.positions.len() as u32;
-        let known = coats.iter().position(|(known, ..)| *known == material);
-        let place = known.unwrap_or_else(|| {
-            let name = scene.materials[material].name.clone();
-            coats.push((material, CoatReport { material: name, layers, instances: 0, vertices_stored: 0 }, Vec::new()));
-            coats.len() - 1
+        let (mesh, primitive) = (instance.mesh, instance.primitive);
+        let coat = coats.entry(material).or_insert_with(|| CoatReport {
+            material: scene.materials[material].name.clone(),
+            layers,
+            instances: 0,
+            vertices_stored: 0,
         });
-        let (_, coat, meshes) = &mut coats[place];
         coat.instances += layers;
-        if !meshes.contains(&index) {
-            meshes.push(index);
-            coat.vertices_stored += vertices;
+        if counted.insert((material, mesh, primitive)) {
+            let vertices = &scene.asset.meshes[mesh].primitives[primitive].vertices;
+            coat.vertices_stored += vertices.positions.len() as u32;
         }
     }
-    coats.into_iter().map(|(_, coat, _)| coat).collect()
+    coats.into_values().collect()
 }

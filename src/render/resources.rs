@@ -8,7 +8,9 @@ use super::plan::{DrawKind, Map, Plan, SurfaceUse, TextureUse, surface_maps};
 use super::stream::Stream;
 use super::texture::mip_levels;
 use crate::asset::{self, TextureRef, Wrap};
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, ImageDesc, Memory, Pipeline, Resource, Sampler, SamplerDesc, Upload};
+use crate::gpu::{
+    BindGroup, Buffer, Gpu, GpuError, Image, ImageDesc, Memory, Pipeline, Resource, Sampler, SamplerDesc, Upload,
+};
 use crate::scene::Scene;
 use ash::vk;
 use std::collections::HashMap;
@@ -141,8 +143,16 @@ impl Resources {
     ///
     /// # Errors
     /// When the device is out of memory.
-    pub fn bind_material(&self, scene: &Scene, spec: &PipelineSpec, name: &str, block: (&str, &Buffer), maps: &[Map]) -> Result<BindGroup, GpuError> {
-        let names: Vec<_> = maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
+    pub fn bind_material(
+        &self,
+        scene: &Scene,
+        spec: &PipelineSpec,
+        name: &str,
+        block: (&str, &Buffer),
+        maps: &[Map],
+    ) -> Result<BindGroup, GpuError> {
+        let names: Vec<_> =
+            maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
         let mut offered = vec![(block.0, Resource::Buffer(block.1))];
         for (map, (texture_name, sampler_name)) in maps.iter().zip(&names) {
             let (image, sampler) = self.map(scene, map.texture, map.srgb);
@@ -167,7 +177,8 @@ impl Resources {
             }
             if !self.indices.contains_key(&index) {
                 let bytes = bytemuck::cast_slice(&mesh.primitives[index.1].indices);
-                let buffer = filled_buffer(&self.gpu, upload, &name("indices"), vk::BufferUsageFlags::INDEX_BUFFER, bytes)?;
+                let buffer =
+                    filled_buffer(&self.gpu, upload, &name("indices"), vk::BufferUsageFlags::INDEX_BUFFER, bytes)?;
                 self.indices.insert(index, buffer);
             }
         }
@@ -181,7 +192,10 @@ impl Resources {
             let mesh = &scene.asset.meshes[index.0];
             let primitive = &mesh.primitives[index.1];
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-            if instance.skin.is_some() && primitive.vertices.influences_per_vertex > 0 && !self.influences.contains_key(&index) {
+            if instance.skin.is_some()
+                && primitive.vertices.influences_per_vertex > 0
+                && !self.influences.contains_key(&index)
+            {
                 let joints: Vec<u32> = primitive.vertices.joints.iter().map(|(joint, _)| u32::from(*joint)).collect();
                 let weights: Vec<f32> = primitive.vertices.joints.iter().map(|(_, weight)| *weight).collect();
                 let joints = filled_buffer(&self.gpu, upload, "joint indices", usage, bytemuck::cast_slice(&joints))?;
@@ -236,7 +250,8 @@ impl Resources {
             let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
             let bytes = standard_uniforms(&standard);
             let uniforms = filled_buffer(&self.gpu, upload, name, usage, bytemuck::bytes_of(&bytes))?;
-            let group = self.bind_material(scene, spec, name, ("StandardBlock", &uniforms), &surface_maps(&standard))?;
+            let group =
+                self.bind_material(scene, spec, name, ("StandardBlock", &uniforms), &surface_maps(&standard))?;
             self.surfaces.insert(key, group);
         }
         Ok(())
@@ -244,7 +259,13 @@ impl Resources {
 }
 
 /// A device buffer that holds `bytes`.
-fn filled_buffer(gpu: &Gpu, upload: &mut Upload, name: &str, usage: vk::BufferUsageFlags, bytes: &[u8]) -> Result<Buffer, GpuError> {
+fn filled_buffer(
+    gpu: &Gpu,
+    upload: &mut Upload,
+    name: &str,
+    usage: vk::BufferUsageFlags,
+    bytes: &[u8],
+) -> Result<Buffer, GpuError> {
     // Vulkan has no empty buffers.
     let size = bytes.len().max(4) as u64;
     let buffer = gpu.buffer(name, size, usage | vk::BufferUsageFlags::TRANSFER_DST, Memory::Device)?;
@@ -254,7 +275,14 @@ fn filled_buffer(gpu: &Gpu, upload: &mut Upload, name: &str, usage: vk::BufferUs
     Ok(buffer)
 }
 
-fn filled_image(gpu: &Gpu, upload: &mut Upload, name: &str, size: [u32; 2], format: vk::Format, levels: &[Vec<u8>]) -> Result<Image, GpuError> {
+fn filled_image(
+    gpu: &Gpu,
+    upload: &mut Upload,
+    name: &str,
+    size: [u32; 2],
+    format: vk::Format,
+    levels: &[Vec<u8>],
+) -> Result<Image, GpuError> {
     let image = gpu.image(&ImageDesc {
         name,
         size,

@@ -3,20 +3,26 @@
 use glam::{Mat4, Vec3};
 
 use super::deform::{deformed_positions, influences, morphed_positions};
-use super::{Instance, Pose, instances, joint_matrices, pose};
+use super::{Pose, instances, joint_matrices, pose};
 use crate::asset::{Asset, Primitive};
-use crate::math::Aabb;
+use crate::math::{Aabb, Hull};
 
 /// Skinned vertices beyond this many (per primitive) are bounded by boxes around each joint's share instead of one by
 /// one.
 const EXACT_SKINNED_VERTICES: usize = 100_000;
 
-/// Box around everything that a scene shows in a pose, in world space; empty for an empty scene.
+/// Outline of everything that a scene shows in a pose, in world space; empty for an empty scene.
 ///
-/// Exact for rigid, morphed and skinned meshes; a skinned primitive of more than 100,000 vertices gets a box that is
-/// never too small.
-pub fn world_bounds(asset: &Asset, scene: usize, pose: &Pose) -> Aabb {
-    bounds_of(asset, pose, &instances(asset, scene, pose, None))
+/// From the vertices of rigid, morphed and skinned meshes; a skinned primitive of more than 100,000 vertices adds a box
+/// that is never too small.
+pub fn world_hull(asset: &Asset, scene: usize, pose: &Pose) -> Hull {
+    let mut hull = Hull::default();
+    for instance in instances(asset, scene, pose, None) {
+        let primitive = &asset.meshes[instance.mesh].primitives[instance.primitive];
+        let joints = instance.skin.map(|skin| joint_matrices(asset, skin, pose)).unwrap_or_default();
+        hull.extend(&outer_points(primitive, instance.world_from_object, &joints, &instance.morph_weights));
+    }
+    hull
 }
 
 /// Radius of the sphere around a node's mesh in its rest pose, world metres: what relative fur lengths are measured
@@ -36,32 +42,24 @@ pub fn object_radius_m(asset: &Asset, node: usize) -> f32 {
         }
     };
     let bounds = asset.meshes[mesh].primitives.iter().fold(Aabb::EMPTY, |bounds, primitive| {
-        bounds.union(primitive_bounds(primitive, Mat4::IDENTITY, &joints, &rest.weights[node]))
+        bounds.union(Aabb::around(outer_points(primitive, Mat4::IDENTITY, &joints, &rest.weights[node])))
     });
     (bounds.half_extent() * axis_scale).length()
 }
 
-fn bounds_of(asset: &Asset, pose: &Pose, shown: &[Instance]) -> Aabb {
-    shown.iter().fold(Aabb::EMPTY, |bounds, instance| {
-        let primitive = &asset.meshes[instance.mesh].primitives[instance.primitive];
-        let joints = instance.skin.map(|skin| joint_matrices(asset, skin, pose)).unwrap_or_default();
-        bounds.union(primitive_bounds(primitive, instance.world_from_object, &joints, &instance.morph_weights))
-    })
-}
-
 /// Only vertices that an index uses count: files share one vertex list among primitives.
-fn primitive_bounds(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weights: &[f32]) -> Aabb {
+fn outer_points(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weights: &[f32]) -> Vec<Vec3> {
     let mut used = vec![false; primitive.vertices.positions.len()];
     for &index in &primitive.indices {
         used[index as usize] = true;
     }
     if !joints.is_empty() && used.len() > EXACT_SKINNED_VERTICES {
-        return joint_boxes(primitive, &used, joints, weights).transformed(matrix);
+        let bounds = joint_boxes(primitive, &used, joints, weights).transformed(matrix);
+        return if bounds.is_empty() { Vec::new() } else { bounds.corners().to_vec() };
     }
     let positions = deformed_positions(primitive, joints, weights);
-    Aabb::around(
-        positions.iter().zip(&used).filter(|&(_, &used)| used).map(|(&position, _)| matrix.transform_point3(position)),
-    )
+    let places = positions.iter().zip(&used).filter(|&(_, &used)| used);
+    places.map(|(&position, _)| matrix.transform_point3(position)).collect()
 }
 
 /// A skinned vertex is a weighted mean of its joints' images of it, so it lies in the union of each joint's image of
@@ -112,7 +110,7 @@ mod tests {
     }
 
     fn bounds(asset: &Asset) -> Aabb {
-        world_bounds(asset, 0, &pose(asset, None, 0.0))
+        world_hull(asset, 0, &pose(asset, None, 0.0)).bounds()
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Where the picture is taken from: a camera of the file, an orbit, or a view that frames the scene.
 
-use glam::{Mat3, Mat4, Vec3};
+use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use super::{Pose, SceneError, find_camera, nodes_of_scene};
 use crate::asset::{Asset, Projection};
-use crate::math::{Aabb, orthographic, perspective, perspective_infinite};
+use crate::math::{Aabb, Hull, orthographic, perspective, perspective_infinite};
 
 /// Horizontal angle of the framing view: three quarters from the front.
 pub const DEFAULT_THETA_DEG: f32 = 35.0;
@@ -95,7 +95,7 @@ impl Camera {
 
 /// The chosen view of a scene.
 ///
-/// `aspect` is the picture's width / height; `bounds` are [`world_bounds`](super::world_bounds) in the same pose.
+/// `aspect` is the picture's width / height; `shown` is the outline of what should be framed ([`world_hull`](super::world_hull)).
 /// Scenes of any size, points and empty scenes give a usable camera. A file camera whose aspect differs from the
 /// picture's shows at least all that the file frames; the scale of its node is ignored.
 ///
@@ -108,13 +108,13 @@ pub fn camera(
     pose: &Pose,
     choice: &CameraChoice,
     aspect: f32,
-    bounds: Aabb,
+    shown: &Hull,
 ) -> Result<Camera, SceneError> {
     check("the picture's width / height", aspect, aspect > 0.0, "a number above 0")?;
     match choice {
-        CameraChoice::Auto => orbit(DEFAULT_THETA_DEG, DEFAULT_PHI_DEG, None, None, DEFAULT_FOV_DEG, aspect, bounds),
+        CameraChoice::Auto => orbit(DEFAULT_THETA_DEG, DEFAULT_PHI_DEG, None, None, DEFAULT_FOV_DEG, aspect, shown),
         &CameraChoice::Orbit { theta_deg, phi_deg, radius_m, target, fov_deg } => {
-            orbit(theta_deg, phi_deg, radius_m, target, fov_deg, aspect, bounds)
+            orbit(theta_deg, phi_deg, radius_m, target, fov_deg, aspect, shown)
         }
         CameraChoice::Index(index) => of_file(asset, scene, pose, &index.to_string(), Some(*index), aspect),
         CameraChoice::Named(name) => of_file(asset, scene, pose, name, None, aspect),
@@ -128,7 +128,7 @@ fn orbit(
     target: Option<Vec3>,
     fov_deg: f32,
     aspect: f32,
-    bounds: Aabb,
+    shown: &Hull,
 ) -> Result<Camera, SceneError> {
     check("the orbit's theta", theta_deg, true, "degrees")?;
     check("the orbit's phi", phi_deg, true, "degrees")?;
@@ -141,8 +141,12 @@ fn orbit(
     }
     let fov = fov_deg.to_radians();
     let axes = orbit_axes(theta_deg, phi_deg);
-    let target = target.unwrap_or(bounds.center());
-    let radius_m = radius_m.unwrap_or_else(|| framing_distance_m(axes, target, fov, aspect, bounds));
+    let bounds = shown.bounds();
+    let target = target.unwrap_or_else(|| match radius_m {
+        Some(_) => bounds.center(),
+        None => framing_target(axes, fov, aspect, shown),
+    });
+    let radius_m = radius_m.unwrap_or_else(|| framing_distance_m(axes, target, fov, aspect, shown));
     let eye = target + axes.z_axis * radius_m;
     Ok(Camera::new(axes, eye, perspective_infinite(fov, aspect, near_m(eye, target, bounds)), false))
 }
@@ -163,18 +167,39 @@ fn sin_cos_deg(angle_deg: f32) -> (f32, f32) {
     (sin as f32, cos as f32)
 }
 
-/// Nearest eye from which all eight corners fall inside the picture: a corner at (x, y, z) in camera axes around the
+/// The point to look at so that the outline sits in the middle of the picture: the near side of a thing shows larger
+/// than its far side, so the middle of its box would not do.
+fn framing_target(axes: Mat3, fov: f32, aspect: f32, shown: &Hull) -> Vec3 {
+    let mut target = shown.bounds().center();
+    // Each round leaves a small share of the offset; three leave none that a pixel shows.
+    for _ in 0..3 {
+        let distance_m = framing_distance_m(axes, target, fov, aspect, shown);
+        let camera_from_world = axes.transpose();
+        let (mut least, mut most) = (Vec2::MAX, Vec2::MIN);
+        for &point in shown.points() {
+            let point = camera_from_world * (point - target);
+            let seen = point.truncate() / (distance_m - point.z).max(f32::MIN_POSITIVE);
+            (least, most) = (least.min(seen), most.max(seen));
+        }
+        let offset = (least + most) * (0.5 * distance_m);
+        if offset.is_finite() {
+            target += axes.x_axis * offset.x + axes.y_axis * offset.y;
+        }
+    }
+    target
+}
+
+/// Nearest eye from which the whole outline falls inside the picture: a point at (x, y, z) in camera axes around the
 /// target needs `|x| / (distance - z) <= tan(half fov)`, the same for y.
-fn framing_distance_m(axes: Mat3, target: Vec3, fov: f32, aspect: f32, bounds: Aabb) -> f32 {
+fn framing_distance_m(axes: Mat3, target: Vec3, fov: f32, aspect: f32, shown: &Hull) -> f32 {
     let half_height = (0.5 * fov).tan() * FRAMED_SHARE;
     let camera_from_world = axes.transpose();
-    let corners: &[Vec3] = if bounds.is_empty() { &[] } else { &bounds.corners() };
     // A line seen along itself needs no width at all: the eye still stays outside.
-    let clearance_m = bounds.sphere().radius * CLEARANCE_RADII;
+    let clearance_m = shown.bounds().sphere().radius * CLEARANCE_RADII;
     let distance_m =
-        corners.iter().map(|&corner| camera_from_world * (corner - target)).fold(0.0, |distance, corner| {
-            let half_size_m = (corner.y.abs() / half_height).max(corner.x.abs() / (half_height * aspect));
-            f32::max(distance, corner.z + half_size_m.max(clearance_m))
+        shown.points().iter().map(|&point| camera_from_world * (point - target)).fold(0.0, |distance, point| {
+            let half_size_m = (point.y.abs() / half_height).max(point.x.abs() / (half_height * aspect));
+            f32::max(distance, point.z + half_size_m.max(clearance_m))
         });
     // Something without size, as seen by f32 at its place, would put the eye inside it.
     let resolution_m = target.length() * 1e-6;
@@ -262,7 +287,7 @@ mod tests {
     use glam::{Quat, Vec2};
 
     fn view(choice: CameraChoice, aspect: f32, bounds: Aabb) -> Result<Camera, SceneError> {
-        camera(&Asset::default(), 0, &Pose::default(), &choice, aspect, bounds)
+        camera(&Asset::default(), 0, &Pose::default(), &choice, aspect, &Hull::of_box(bounds))
     }
 
     fn orbit_at(theta_deg: f32, phi_deg: f32, radius_m: f32) -> CameraChoice {
@@ -376,7 +401,7 @@ mod tests {
     fn a_file_camera_is_found_by_node_and_ignores_scale() {
         let asset = tripod(Projection::Perspective { vertical_fov: 1.0, aspect: None, near_m: 0.1, far_m: Some(10.0) });
         let pose = pose(&asset, None, 0.0);
-        let at = |choice: CameraChoice, scene| camera(&asset, scene, &pose, &choice, 1.0, Aabb::EMPTY);
+        let at = |choice: CameraChoice, scene| camera(&asset, scene, &pose, &choice, 1.0, &Hull::default());
         let camera = at(CameraChoice::Named("tripod".into()), 0).unwrap();
         assert_eq!(at(CameraChoice::Index(0), 0).unwrap(), camera);
         assert!((camera.eye_in_world() - Vec3::X * 5.0).length() < 1e-6);

@@ -83,16 +83,16 @@ mod tests {
 
     #[test]
     fn names_win_over_numbers() {
-        assert_eq!(find_animation(&asset(), "Survey"), Ok(0));
-        assert_eq!(find_animation(&asset(), "0"), Ok(1));
-        assert_eq!(find_animation(&asset(), "2"), Ok(2));
+        assert_eq!(find_animation(&asset(), "Survey").ok(), Some(0));
+        assert_eq!(find_animation(&asset(), "0").ok(), Some(1));
+        assert_eq!(find_animation(&asset(), "2").ok(), Some(2));
     }
 
     #[test]
     fn cameras_answer_to_their_nodes() {
-        assert_eq!(find_camera(&asset(), "tripod"), Ok(0));
-        assert_eq!(find_camera(&asset(), "close"), Ok(1));
-        assert_eq!(find_camera(&asset(), "0"), Ok(0));
+        assert_eq!(find_camera(&asset(), "tripod").ok(), Some(0));
+        assert_eq!(find_camera(&asset(), "close").ok(), Some(1));
+        assert_eq!(find_camera(&asset(), "0").ok(), Some(0));
     }
 
     #[test]

@@ -1,17 +1,21 @@
 //! A scene: a file's plain data, dressed with materials.
 
 use super::SceneError;
-use super::bounds::object_radius_m;
+use super::animation::pose;
+use super::bounds::{object_radius_m, world_hull};
 use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
 use crate::material::{self, Look, Material, Standard};
-use crate::math::Aabb;
+use crate::math::{Aabb, Hull};
 use crate::scene::Instance;
 use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Poses of a clip that its outline is taken from.
+const OUTLINE_POSES: usize = 16;
 
 /// A file's plain data, dressed with materials.
 #[derive(Debug)]
@@ -23,6 +27,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Coat sizes by node: they need a rest pose, and every frame asks.
     radii_m: Mutex<HashMap<usize, f32>>,
+    /// Outlines by scene and clip, for the same reason.
+    outlines: Mutex<HashMap<(usize, Option<usize>), Hull>>,
 }
 
 impl Scene {
@@ -35,7 +41,7 @@ impl Scene {
         let mut asset = asset::load(path, options)?;
         let mut read = images_of(folder_of(path), options);
         let materials = material::from_asset(&mut asset, &mut read)
-            .map_err(|source| SceneError::Keys { file: path.to_owned(), source })?;
+            .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
         Ok(Self::new(asset, materials))
     }
 
@@ -96,7 +102,13 @@ impl Scene {
     fn new(mut asset: Asset, materials: Vec<Material>) -> Self {
         static NEXT_ID: AtomicU64 = AtomicU64::new(1);
         add_missing_tangents(&mut asset, &materials);
-        Self { id: NEXT_ID.fetch_add(1, Ordering::Relaxed), asset, materials, radii_m: Mutex::default() }
+        Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            asset,
+            materials,
+            radii_m: Mutex::default(),
+            outlines: Mutex::default(),
+        }
     }
 
     /// Tells scenes apart; no two have the same.
@@ -116,9 +128,26 @@ impl Scene {
         }
     }
 
+    /// Outline of a scene over a whole clip, so that a sequence is framed once and every frame of it alike; of the rest
+    /// pose without a clip.
+    pub fn outline(&self, scene: usize, animation: Option<usize>) -> Hull {
+        let mut outlines = self.outlines.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || {
+            let duration_s = animation.map_or(0.0, |index| self.asset.animations[index].duration_s);
+            let poses = if duration_s > 0.0 { OUTLINE_POSES } else { 1 };
+            let mut hull = Hull::default();
+            for index in 0..poses {
+                let time_s = duration_s * index as f32 / poses as f32;
+                hull.extend(world_hull(&self.asset, scene, &pose(&self.asset, animation, time_s)).points());
+            }
+            hull
+        };
+        outlines.entry((scene, animation)).or_insert_with(make).clone()
+    }
+
     /// Radius of the sphere around an instance's mesh in its rest pose, world metres, > 0.
     pub fn world_radius_m(&self, instance: &Instance) -> f32 {
-        let mut radii_m = self.radii_m.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut radii_m = self.radii_m.lock().unwrap_or_else(PoisonError::into_inner);
         let radius_m = *radii_m.entry(instance.node).or_insert_with(|| object_radius_m(&self.asset, instance.node));
         radius_m.max(f32::MIN_POSITIVE)
     }

@@ -15,15 +15,15 @@ mod load;
 mod shell;
 
 pub use animation::{Pose, pose};
-pub use bounds::{object_radius_m, world_bounds};
+pub use bounds::{object_radius_m, world_hull};
 pub use camera::{Camera, CameraChoice, DEFAULT_FOV_DEG, DEFAULT_PHI_DEG, DEFAULT_THETA_DEG, camera};
 pub use choice::{find_animation, find_camera, find_scene, find_variant};
 pub use deform::deform;
 pub use error::SceneError;
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
-pub use load::Scene;
 pub use light::{
     AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
     lighting,
 };
+pub use load::Scene;
 pub use shell::{shell_directions, shell_directions_of_mesh};

@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Mat3, Quat, Vec3, Vec4};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::mesh::{backdrop, capsule, cube, rounded_cube, sphere, torus, torus_knot};
 use crate::asset::{
@@ -23,24 +23,24 @@ pub fn gallery() -> Asset {
     let stone = set.material(surface("plinth", [0.13, 0.125, 0.125], 0.0, 0.55));
     let copper = set.material(surface("copper", [0.955, 0.638, 0.538], 1.0, 0.32));
     let ceramic = set.material(surface("ceramic", [0.07, 0.20, 0.24], 0.0, 0.28));
-    let fox = set.material(fur("fur", json!("fox")));
-    let leopard = set.material(fur("fur leopard", json!("leopard")));
-    let mink = set.material(fur("fur mink", json!("mink")));
-    let plush = set.material(fur("fur plush", json!("plush toy")));
+    let fox = set.material(fur("fur", [0.62, 0.27, 0.075], "fox"));
+    let leopard = set.material(fur("fur leopard", [1.0; 3], "leopard"));
+    let mink = set.material(fur("fur mink", [1.0; 3], "mink"));
+    let plush = set.material(fur("fur plush", [0.80, 0.72, 0.62], "plush toy"));
 
     set.object("backdrop", backdrop(3.0, 2.2, 1.3, 2.4, 0.9), paper, Vec3::ZERO, Quat::IDENTITY);
     set.object("plinth", rounded_cube(0.17, 0.012, 12), stone, Vec3::new(0.0, -0.06, -0.02), turned(0.35));
-    set.object("knot", torus_knot(0.125, 0.05, 0.044, 320, 40), fox, Vec3::new(0.0, 0.35, -0.02), tilted(0.25, -0.12));
-    set.object("leopard ball", sphere(0.12, 28), leopard, Vec3::new(-0.40, 0.14, 0.10), tilted(0.5, 0.2));
-    set.object("plush block", rounded_cube(0.085, 0.04, 24), plush, Vec3::new(0.33, 0.10, 0.20), turned(0.6));
-    set.object("mink roll", capsule(0.06, 0.09, 48, 64), mink, Vec3::new(0.52, 0.085, -0.04), lying(0.35));
-    set.object("mink ring", torus(0.085, 0.036, 96, 36), mink, Vec3::new(-0.17, 0.06, 0.40), tilted(0.3, 0.0));
+    set.object("knot", torus_knot(0.125, 0.05, 0.044, 224, 24), fox, Vec3::new(0.0, 0.35, -0.02), tilted(0.25, -0.12));
+    set.object("leopard ball", sphere(0.12, 20), leopard, Vec3::new(-0.40, 0.14, 0.10), tilted(0.5, 0.2));
+    set.object("plush block", rounded_cube(0.085, 0.04, 12), plush, Vec3::new(0.33, 0.10, 0.20), turned(0.6));
+    set.object("mink roll", capsule(0.06, 0.09, 36, 32), mink, Vec3::new(0.52, 0.085, -0.04), lying(0.35));
+    set.object("mink ring", torus(0.085, 0.036, 64, 24), mink, Vec3::new(-0.17, 0.06, 0.40), tilted(0.3, 0.0));
     set.object("copper ball", sphere(0.06, 32), copper, Vec3::new(0.10, 0.06, 0.44), Quat::IDENTITY);
     set.object("ceramic ball", sphere(0.042, 28), ceramic, Vec3::new(-0.45, 0.042, 0.36), Quat::IDENTITY);
 
     // Key from the upper left, a cool rim from behind that draws the hair tips, a weak warm fill from the right.
     let key = LightKind::Directional;
-    set.light("key light", key, [1.0, 0.96, 0.9], 0.9 * PI, Vec3::new(-1.2, 1.9, 1.4), Vec3::new(0.0, 0.2, 0.0));
+    set.light("key light", key, [1.0, 0.96, 0.9], 1.25 * PI, Vec3::new(-1.2, 1.9, 1.4), Vec3::new(0.0, 0.2, 0.0));
     let rim = LightKind::Spot { range_m: None, inner_angle: 0.35, outer_angle: 0.7 };
     set.light("rim light", rim, [0.8, 0.9, 1.0], 8.0, Vec3::new(0.9, 1.35, -1.0), Vec3::new(0.0, 0.25, 0.0));
     let fill = LightKind::Point { range_m: None };
@@ -142,9 +142,9 @@ fn surface(name: &str, linear_color: [f32; 3], metallic: f32, roughness: f32) ->
     Material { name: Some(name.to_owned()), base_color, metallic, roughness, ..Material::default() }
 }
 
-fn fur(name: &str, preset: Value) -> Material {
-    let vair = Some(serde_json::Map::from_iter([("preset".to_owned(), preset)]));
-    Material { vair, ..surface(name, [1.0; 3], 0.0, 0.8) }
+fn fur(name: &str, color: [f32; 3], preset: &str) -> Material {
+    let vair = Some(serde_json::Map::from_iter([("preset".to_owned(), json!(preset))]));
+    Material { vair, ..surface(name, color, 0.0, 0.8) }
 }
 
 #[cfg(test)]

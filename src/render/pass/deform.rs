@@ -5,28 +5,24 @@
 //! Twin: `scene::deform`.
 
 use crate::gpu::Encoder;
-use crate::render::frame_data::FrameData;
-use crate::render::plan::{Pass, Plan};
-use crate::render::resources::Resources;
-use crate::scene::Scene;
+use crate::render::frame::Frame;
+use crate::render::plan::Pass;
 use crate::shader::layout::DeformDraw;
 
 /// Records the pass.
-pub fn record(encoder: &mut Encoder, scene: &Scene, plan: &Plan, resources: &Resources, data: &FrameData) {
+pub fn record(encoder: &mut Encoder, frame: &Frame) {
+    let plan = &frame.shot.plan;
     encoder.compute_pass(Pass::Deform.name(), &[], |pass| {
-        for (deform, group) in plan.deforms.iter().zip(&data.deform_groups) {
+        for (deform, group) in plan.deforms.iter().zip(&frame.data.deform_groups) {
             let instance = &plan.instances[deform.instance];
-            let primitive = &scene.asset.meshes[instance.mesh].primitives[instance.primitive];
+            let primitive = &frame.scene.asset.meshes[instance.mesh].primitives[instance.primitive];
             let vertex_count = primitive.vertices.positions.len() as u32;
-            let spec = &plan.compute_pipelines[deform.pipeline];
-            pass.pipeline(resources.compute_pipeline(spec));
+            pass.pipeline(frame.resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]));
             pass.bind(0, group);
             pass.push(&DeformDraw {
                 vertex_count,
                 influences_per_vertex: primitive.vertices.influences_per_vertex as u32,
-                first_joint: 0,
                 target_count: primitive.morph_targets.len() as u32,
-                first_weight: 0,
             });
             pass.dispatch([vertex_count.div_ceil(64), 1, 1]);
         }

@@ -5,17 +5,17 @@
 
 use crate::asset::Topology;
 use crate::gpu::RenderPass;
-use crate::render::frame_data::FrameData;
+use crate::render::frame::Frame;
 use crate::render::pipeline::shader;
-use crate::render::plan::{Draw, DrawKind, Plan};
-use crate::render::resources::Resources;
+use crate::render::plan::{Draw, DrawKind};
 use crate::render::stream::inputs;
-use crate::scene::{Camera, Scene};
 use crate::shader::layout::ObjectDraw;
 use ash::vk::{CullModeFlags, FrontFace};
 
 /// Records draws in their order.
-pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan, resources: &Resources, data: &FrameData) {
+pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
+    let Frame { scene, resources, data, .. } = *frame;
+    let plan = &frame.shot.plan;
     let mut bound = None;
     for draw in draws {
         let spec = &plan.pipelines[draw.pipeline];
@@ -32,7 +32,8 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan,
             DrawKind::Surface(surface) => {
                 (resources.surface(surface, spec), 1, scene.materials[surface.material].standard.double_sided)
             }
-            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, false),
+            // Shells that face away carry the strands that stand out over the outline.
+            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, true),
         };
         pass.bind(1, material);
         for input in inputs(shader(&spec.vertex)) {
@@ -59,10 +60,11 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], scene: &Scene, plan: &Plan,
 }
 
 /// Draws from far to near, by the middle of each object's bounds.
-pub fn far_to_near(draws: &[Draw], scene: &Scene, plan: &Plan, camera: &Camera) -> Vec<Draw> {
+pub fn far_to_near(draws: &[Draw], frame: &Frame) -> Vec<Draw> {
+    let camera = &frame.shot.camera;
     let depth = |draw: &Draw| {
-        let instance = &plan.instances[draw.instance];
-        let middle = instance.world_from_object.transform_point3(scene.middle_in_object(instance));
+        let instance = &frame.shot.plan.instances[draw.instance];
+        let middle = instance.world_from_object.transform_point3(frame.scene.middle_in_object(instance));
         (middle - camera.eye_in_world()).dot(-camera.backwards_in_world())
     };
     let mut sorted: Vec<(f32, Draw)> = draws.iter().map(|draw| (depth(draw), *draw)).collect();

@@ -4,17 +4,19 @@
 //! a transparent background, the coverage (colour not premultiplied). Cost: one texel fetch a pixel.
 //! Twin: `material::reference::tonemap`.
 
-use crate::gpu::{BindGroup, ColorTarget, Encoder, Image, Load, Pipeline, RenderPassDesc};
-use crate::render::options::{Background, FrameOptions};
+use crate::gpu::{ColorTarget, Encoder, Load, RenderPassDesc};
+use crate::render::frame::Frame;
+use crate::render::options::Background;
 use crate::render::plan::Pass;
 use crate::shader::layout::TonemapDraw;
 use glam::Vec3;
 
 /// Records the pass.
-pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3, pipeline: &Pipeline, group: &BindGroup, hdr: &Image, target: &Image) {
+pub fn record(encoder: &mut Encoder, frame: &Frame) {
+    let options = frame.options;
     let draw = TonemapDraw {
         background: match options.background {
-            Background::Environment => surroundings,
+            Background::Environment => frame.shot.lighting.ambient_radiance,
             Background::Transparent => Vec3::ZERO,
             Background::Color(color) => color,
         }
@@ -24,11 +26,18 @@ pub fn record(encoder: &mut Encoder, options: &FrameOptions, surroundings: Vec3,
         background_is_light: if options.background == Background::Environment { 1.0 } else { 0.0 },
         ..Default::default()
     };
-    let color = [ColorTarget { image: target, load: Load::Discard, store: true, resolve: None }];
-    let desc = RenderPassDesc { name: Pass::Tonemap.name(), size: options.size, color: &color, depth: None, sampled: &[hdr] };
+    let color = [ColorTarget { image: frame.target, load: Load::Discard, store: true, resolve: None }];
+    let sampled = [frame.targets.hdr()];
+    let desc = RenderPassDesc {
+        name: Pass::Tonemap.name(),
+        size: options.size,
+        color: &color,
+        depth: None,
+        sampled: &sampled,
+    };
     encoder.render_pass(&desc, |pass| {
-        pass.pipeline(pipeline);
-        pass.bind(0, group);
+        pass.pipeline(frame.resources.pipeline(&frame.data.tonemap));
+        pass.bind(0, &frame.data.tonemap_group);
         pass.push(&draw);
         pass.draw(3, 1);
     });
