@@ -15,7 +15,7 @@ pub enum SceneError {
         /// The file.
         file: std::path::PathBuf,
         /// Which key, and why.
-        source: crate::material::MaterialError,
+        source: Box<crate::material::MaterialError>,
     },
     /// No such animation, scene, camera or variant.
     #[error("no {kind} \"{asked}\": {}", available_in_words(kind, available))]

@@ -41,7 +41,7 @@ impl Scene {
         let mut asset = asset::load(path, options)?;
         let mut read = images_of(folder_of(path), options);
         let materials = material::from_asset(&mut asset, &mut read)
-            .map_err(|source| SceneError::Keys { file: path.to_owned(), source })?;
+            .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
         Ok(Self::new(asset, materials))
     }
 
