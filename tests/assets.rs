@@ -31,7 +31,7 @@ fn covered_share(picture: &Picture) -> f64 {
 
 /// Seconds into every model's first clip, if it has one, at which it is rendered.
 fn times_s(scene: &Scene) -> Vec<f32> {
-    match scene.asset.animations.first() {
+    match scene.asset().animations.first() {
         Some(clip) => vec![0.0, 0.37 * clip.duration_s],
         None => vec![0.0],
     }
@@ -60,7 +60,7 @@ fn every_model_renders_with_and_without_fur() {
                 scene.apply(&look, Path::new(""), &LoadOptions::default()).unwrap();
             }
             for time_s in times_s(&scene) {
-                let animation = (!scene.asset.animations.is_empty()).then_some(0);
+                let animation = (!scene.asset().animations.is_empty()).then_some(0);
                 let options = FrameOptions { animation, time_s, ..options() };
                 match renderer.render(&scene, &options) {
                     Ok(picture) if covered_share(&picture) == 0.0 => {

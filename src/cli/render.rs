@@ -206,7 +206,7 @@ fn summary(
         "fur": fur.collect::<Vec<_>>(),
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes() },
         "left_out": left_out.collect::<Vec<_>>(),
-        "warnings": scene.asset.warnings,
+        "warnings": scene.asset().warnings,
         "validation_messages": renderer.gpu().validation_messages(),
     })
 }

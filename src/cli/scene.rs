@@ -121,7 +121,7 @@ impl SceneArguments {
 
     /// What a loaded scene has to say, one line each.
     pub fn complain(&self, scene: &Scene) {
-        for warning in &scene.asset.warnings {
+        for warning in &scene.asset().warnings {
             let file = self.scene_file.as_deref().unwrap_or(Path::new("gallery")).display();
             output::complain(&format!("warning: {file}: {warning}"));
         }
@@ -130,7 +130,7 @@ impl SceneArguments {
     /// The frame that these options ask for.
     pub fn frame_options(&self, scene: &Scene) -> Result<FrameOptions> {
         let file = || self.scene_file.as_deref().unwrap_or(Path::new("gallery")).display().to_string();
-        let asset = &scene.asset;
+        let asset = &scene.asset();
         let named = |text: &Option<String>, find: fn(&Asset, &str) -> Result<usize, SceneError>| {
             text.as_deref().map(|text| find(asset, text)).transpose().with_context(file)
         };

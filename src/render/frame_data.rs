@@ -1,7 +1,7 @@
 //! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
 
 use super::Shot;
-use super::material::{CoatSize, fur_uniforms};
+use super::material::fur_uniforms;
 use super::options::FrameOptions;
 use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan, fur_maps};
@@ -104,10 +104,8 @@ impl FrameData {
         draw: &Draw,
     ) -> Result<(), GpuError> {
         let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
-        let Material { standard, fur: Some(fur), name } = &scene.materials[material] else { return Ok(()) };
-        let instance = &plan.instances[draw.instance];
-        let size =
-            CoatSize { rest_radius: scene.rest_radius(instance.mesh), world_radius_m: scene.world_radius_m(instance) };
+        let Material { standard, fur: Some(fur), name } = &scene.materials()[material] else { return Ok(()) };
+        let size = scene.size(&plan.instances[draw.instance]);
         let uniforms =
             filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, standard, size, layers)])?;
         let spec = &plan.pipelines[draw.pipeline];
@@ -129,7 +127,7 @@ impl FrameData {
         for deform in &plan.deforms {
             let instance = &plan.instances[deform.instance];
             let index = (instance.mesh, instance.primitive);
-            let count = scene.asset.meshes[index.0].primitives[index.1].vertices.positions.len();
+            let count = scene.asset().meshes[index.0].primitives[index.1].vertices.positions.len();
             let bytes = (count as u64 * u64::from(deform.stream.stride())).max(4);
             let target =
                 gpu.buffer("deformed stream", bytes, storage | vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device)?;
@@ -141,7 +139,7 @@ impl FrameData {
                 let buffer = match joints.entry(skin) {
                     Entry::Occupied(known) => known.into_mut(),
                     Entry::Vacant(new) => {
-                        let matrices = joint_matrices(&scene.asset, skin, pose);
+                        let matrices = joint_matrices(&scene.asset(), skin, pose);
                         new.insert(filled(gpu, "joints", storage, &matrices)?)
                     }
                 };

@@ -2,6 +2,7 @@
 
 use crate::asset::TextureRef;
 use crate::material::{Fur, Length, Standard};
+use crate::scene::Size;
 use crate::shader::layout::{FurUniforms, StandardUniforms, TextureTransform};
 use glam::Vec3;
 
@@ -41,22 +42,9 @@ fn transform(map: Option<TextureRef>) -> TextureTransform {
     }
 }
 
-/// How large a coat's mesh is, in its rest pose and in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CoatSize {
-    /// Radius of the mesh in units of its positions, > 0.
-    pub rest_radius: f32,
-    /// The same in world units.
-    pub world_radius_m: f32,
-}
-
 /// The uniform block of a coat of `layers` shells on a mesh of that size.
-pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: CoatSize, layers: u32) -> FurUniforms {
-    let world = |length: Length| match length {
-        Length::Metres(metres) => metres,
-        Length::Relative(share) => share * size.world_radius_m,
-    };
-    let rest_per_metre = size.rest_radius / size.world_radius_m.max(f32::MIN_POSITIVE);
+pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32) -> FurUniforms {
+    let world = |length: Length| length.metres(size.world_radius_m);
     FurUniforms {
         base_color: fur.base_color.unwrap_or(standard.base_color.truncate()).extend(1.0).to_array(),
         root_color: fur.root_color.to_array(),
@@ -64,7 +52,7 @@ pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: CoatSize, layers: u32)
         spot_color: fur.spot_color.to_array(),
         length_m: world(fur.length),
         // A spacing of nothing would make infinitely many strands.
-        strand_spacing: (world(fur.strand_spacing) * rest_per_metre).max(size.rest_radius * 1e-5),
+        strand_spacing: (world(fur.strand_spacing) / size.world_from_rest).max(size.rest_radius * 1e-5),
         strand_radius: 0.5 * fur.thickness.max(1e-3),
         force: (fur.force.normalize_or(Vec3::ZERO) * fur.force_strength).to_array(),
         color_variation: fur.color_variation,

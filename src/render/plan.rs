@@ -144,8 +144,8 @@ impl Plan {
 
     fn add_instance(&mut self, scene: &Scene, index: usize, options: &FrameOptions) {
         let Instance { mesh, primitive, material, .. } = self.instances[index];
-        let geometry = &scene.asset.meshes[mesh].primitives[primitive];
-        let fur = scene.materials[material].fur.as_ref().filter(|_| geometry.topology == Topology::Triangles);
+        let geometry = &scene.asset().meshes[mesh].primitives[primitive];
+        let fur = scene.materials()[material].fur.as_ref().filter(|_| geometry.topology == Topology::Triangles);
 
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
@@ -157,16 +157,16 @@ impl Plan {
             self.add_draw(
                 scene,
                 index,
-                PipelineSpec::fur(fur, &scene.materials[material].standard, geometry, options),
+                PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options),
                 DrawKind::Fur { material, layers },
             );
-            self.add_textures(scene, &fur_maps(fur, &scene.materials[material].standard));
+            self.add_textures(scene, &fur_maps(fur, &scene.materials()[material].standard));
         }
     }
 
     fn add_draw(&mut self, scene: &Scene, index: usize, spec: PipelineSpec, kind: DrawKind) {
         let instance = &self.instances[index];
-        let geometry = &scene.asset.meshes[instance.mesh].primitives[instance.primitive];
+        let geometry = &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
         let skin = instance.skin.is_some() && geometry.vertices.influences_per_vertex > 0;
         let morph = !geometry.morph_targets.is_empty();
         let streams = self.streams.entry((instance.mesh, instance.primitive)).or_default();
@@ -190,7 +190,8 @@ impl Plan {
     fn add_textures(&mut self, scene: &Scene, maps: &[Map]) {
         for map in maps {
             if let Some(texture) = map.texture {
-                self.textures.insert(TextureUse { image: scene.asset.textures[texture.texture].image, srgb: map.srgb });
+                self.textures
+                    .insert(TextureUse { image: scene.asset().textures[texture.texture].image, srgb: map.srgb });
             }
         }
     }
@@ -253,9 +254,9 @@ impl Plan {
             self.left_out.push(LeftOut { what, why: "no pipeline in use reads them".to_owned() });
         }
         let used: BTreeSet<usize> = self.textures.iter().map(|texture| texture.image).collect();
-        let images = scene.asset.images.len().saturating_sub(used.len());
+        let images = scene.asset().images.len().saturating_sub(used.len());
         if images > 0 {
-            let what = format!("{images} of {} images", scene.asset.images.len());
+            let what = format!("{images} of {} images", scene.asset().images.len());
             self.left_out.push(LeftOut { what, why: "no material in use samples them".to_owned() });
         }
     }
@@ -325,7 +326,7 @@ fn unused_streams(scene: &Scene, used: &BTreeMap<(usize, usize), BTreeSet<Stream
     all.iter()
         .filter(|stream| {
             let mut having = used.iter().filter(|((mesh, primitive), _)| {
-                has_stream(&scene.asset.meshes[*mesh].primitives[*primitive], **stream)
+                has_stream(&scene.asset().meshes[*mesh].primitives[*primitive], **stream)
             });
             having.clone().next().is_some() && having.all(|(_, streams)| !streams.contains(stream))
         })

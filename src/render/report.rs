@@ -63,14 +63,14 @@ fn coats(scene: &Scene, plan: &Plan) -> Vec<CoatReport> {
         let instance = &plan.instances[draw.instance];
         let (mesh, primitive) = (instance.mesh, instance.primitive);
         let coat = coats.entry(material).or_insert_with(|| CoatReport {
-            material: scene.materials[material].name.clone(),
+            material: scene.materials()[material].name.clone(),
             layers,
             instances: 0,
             vertices_stored: 0,
         });
         coat.instances += layers;
         if counted.insert((material, mesh, primitive)) {
-            let vertices = &scene.asset.meshes[mesh].primitives[primitive].vertices;
+            let vertices = &scene.asset().meshes[mesh].primitives[primitive].vertices;
             coat.vertices_stored += vertices.positions.len() as u32;
         }
     }

@@ -135,7 +135,7 @@ impl Resources {
     /// The texture and sampler of a map that the plan lists; for no map, the white texel.
     pub fn map(&self, scene: &Scene, map: Option<TextureRef>, srgb: bool) -> (&Image, &Sampler) {
         let Some(map) = map else { return (&self.white, &self.samplers[&asset::Sampler::default()]) };
-        let texture = &scene.asset.textures[map.texture];
+        let texture = &scene.asset().textures[map.texture];
         (&self.images[&TextureUse { image: texture.image, srgb }], &self.samplers[&texture.sampler])
     }
 
@@ -164,7 +164,7 @@ impl Resources {
 
     fn prepare_geometry(&mut self, upload: &mut Upload, scene: &Scene, plan: &Plan) -> Result<(), GpuError> {
         for (&index, streams) in &plan.streams {
-            let mesh = &scene.asset.meshes[index.0];
+            let mesh = &scene.asset().meshes[index.0];
             let name = |what: &str| format!("{what} of {}.{}", mesh.name.as_deref().unwrap_or("mesh"), index.1);
             for &stream in streams {
                 if !self.streams.contains_key(&(index, stream)) {
@@ -189,7 +189,7 @@ impl Resources {
         for deform in &plan.deforms {
             let instance = &plan.instances[deform.instance];
             let index = (instance.mesh, instance.primitive);
-            let mesh = &scene.asset.meshes[index.0];
+            let mesh = &scene.asset().meshes[index.0];
             let primitive = &mesh.primitives[index.1];
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
             if instance.skin.is_some()
@@ -216,7 +216,7 @@ impl Resources {
             if self.images.contains_key(&texture) {
                 continue;
             }
-            let source = &scene.asset.images[texture.image];
+            let source = &scene.asset().images[texture.image];
             let limit = self.gpu.info().max_image_size;
             let mut levels = mip_levels(source, texture.srgb);
             let (mut width, mut height) = (source.width.max(1), source.height.max(1));
@@ -229,7 +229,7 @@ impl Resources {
             let image = filled_image(&self.gpu, upload, &source.name, [width, height], format, &levels)?;
             self.images.insert(texture, image);
         }
-        for texture in &scene.asset.textures {
+        for texture in &scene.asset().textures {
             if !self.samplers.contains_key(&texture.sampler) {
                 self.samplers.insert(texture.sampler, self.gpu.sampler(&sampler_desc(&texture.sampler))?);
             }
@@ -246,7 +246,7 @@ impl Resources {
                 continue;
             }
             let standard = scene.standard(surface.material, surface.under_fur);
-            let name = &scene.materials[surface.material].name;
+            let name = &scene.materials()[surface.material].name;
             let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
             let bytes = standard_uniforms(&standard);
             let uniforms = filled_buffer(&self.gpu, upload, name, usage, bytemuck::bytes_of(&bytes))?;

@@ -4,12 +4,46 @@ use glam::{Mat4, Vec3};
 
 use super::deform::{deformed_positions, influences, morphed_positions};
 use super::{Pose, instances, joint_matrices, pose};
-use crate::asset::{Asset, Primitive};
+use crate::asset::{Asset, Primitive, Topology};
 use crate::math::{Aabb, Hull};
 
 /// Skinned vertices beyond this many (per primitive) are bounded by boxes around each joint's share instead of one by
 /// one.
 const EXACT_SKINNED_VERTICES: usize = 100_000;
+
+/// World metres per unit of a node's mesh in its rest pose: the square root of how its surface grows, so that turning it,
+/// as a whole or at its joints, changes nothing. 1 for a mesh without surface.
+pub fn object_scale(asset: &Asset, node: usize) -> f32 {
+    let Some(mesh) = asset.nodes[node].mesh else { return 1.0 };
+    let rest = pose(asset, None, 0.0);
+    let joints = asset.nodes[node].skin.map(|skin| joint_matrices(asset, skin, &rest)).unwrap_or_default();
+    let matrix = if joints.is_empty() { rest.world_from_node[node] } else { Mat4::IDENTITY };
+    let (mut in_mesh, mut in_world) = (0.0, 0.0);
+    for primitive in &asset.meshes[mesh].primitives {
+        let places: Vec<Vec3> = deformed_positions(primitive, &joints, &rest.weights[node])
+            .iter()
+            .map(|&position| matrix.transform_point3(position))
+            .collect();
+        in_mesh += area(&primitive.vertices.positions, primitive);
+        in_world += area(&places, primitive);
+    }
+    let scale = (in_world / in_mesh).sqrt() as f32;
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+}
+
+fn area(positions: &[Vec3], primitive: &Primitive) -> f64 {
+    if primitive.topology != Topology::Triangles {
+        return 0.0;
+    }
+    let corner = |index: u32| positions[index as usize].as_dvec3();
+    let triangles = primitive.indices.chunks_exact(3).map(|triangle| triangle.iter().map(|&index| corner(index)));
+    triangles
+        .map(|mut triangle| match (triangle.next(), triangle.next(), triangle.next()) {
+            (Some(a), Some(b), Some(c)) => 0.5 * (b - a).cross(c - a).length(),
+            _ => 0.0,
+        })
+        .sum()
+}
 
 /// Outline of everything that a scene shows in a pose, in world space; empty for an empty scene.
 ///
@@ -111,6 +145,20 @@ mod tests {
 
     fn bounds(asset: &Asset) -> Aabb {
         world_hull(asset, 0, &pose(asset, None, 0.0)).bounds()
+    }
+
+    #[test]
+    fn turning_joints_does_not_change_the_scale() {
+        let mut asset = asset();
+        let primitive = &mut asset.meshes[0].primitives[0];
+        primitive.vertices.positions[2] = Vec3::Y;
+        primitive.indices = vec![0, 1, 2];
+        asset.nodes[0].skin = Some(0);
+        // Both joints turn the triangle by the same angle; the second one's node also moves and scales it by 3.
+        asset.meshes[0].primitives[0].vertices.joints = vec![(1, 1.0); 3];
+        assert!((object_scale(&asset, 0) - 3.0).abs() < 1e-5);
+        asset.nodes[0].skin = None;
+        assert!((object_scale(&asset, 0) - 1.0).abs() < 1e-6);
     }
 
     #[test]

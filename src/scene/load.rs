@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::animation::pose;
-use super::bounds::{object_radius_m, world_hull};
+use super::bounds::{object_radius_m, object_scale, world_hull};
 use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
 use crate::material::{self, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
@@ -14,6 +14,17 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+/// How large a mesh is in its rest pose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Size {
+    /// Radius of its positions' box, in their units, > 0.
+    pub rest_radius: f32,
+    /// Radius of its box in the world, metres: what relative fur lengths are shares of.
+    pub world_radius_m: f32,
+    /// World metres per unit of its positions, > 0.
+    pub world_from_rest: f32,
+}
+
 /// Poses of a clip that its outline is taken from.
 const OUTLINE_POSES: usize = 16;
 
@@ -21,12 +32,10 @@ const OUTLINE_POSES: usize = 16;
 #[derive(Debug)]
 pub struct Scene {
     id: u64,
-    /// What the file says.
-    pub asset: Asset,
-    /// One per material of the asset, in its order.
-    pub materials: Vec<Material>,
+    asset: Asset,
+    materials: Vec<Material>,
     /// Coat sizes by node: they need a rest pose, and every frame asks.
-    radii_m: Mutex<HashMap<usize, f32>>,
+    sizes: Mutex<HashMap<usize, Size>>,
     /// Outlines by scene and clip, for the same reason.
     outlines: Mutex<HashMap<(usize, Option<usize>), Hull>>,
 }
@@ -98,20 +107,29 @@ impl Scene {
         self.apply(&Look::parse(&text, &file)?, folder_of(path), options)
     }
 
-    /// A scene is a new one whenever its asset or materials change: what the device keeps of it goes by this number.
     fn new(mut asset: Asset, materials: Vec<Material>) -> Self {
-        static NEXT_ID: AtomicU64 = AtomicU64::new(1);
         add_missing_tangents(&mut asset, &materials);
-        Self {
-            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
-            asset,
-            materials,
-            radii_m: Mutex::default(),
-            outlines: Mutex::default(),
-        }
+        Self { id: new_id(), asset, materials, sizes: Mutex::default(), outlines: Mutex::default() }
     }
 
-    /// Tells scenes apart; no two have the same.
+    /// What the file says, and the pictures that looks brought along.
+    pub fn asset(&self) -> &Asset {
+        &self.asset
+    }
+
+    /// One per material of the asset, in its order.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The same, to change parameters: the next frame shows them. A normal map on a mesh without tangents needs
+    /// [`Self::apply`], which makes them.
+    pub fn materials_mut(&mut self) -> &mut [Material] {
+        self.id = new_id();
+        &mut self.materials
+    }
+
+    /// Changes whenever asset or materials do; no two scenes have the same. What a device keeps of a scene goes by it.
     pub fn id(&self) -> u64 {
         self.id
     }
@@ -145,18 +163,20 @@ impl Scene {
         outlines.entry((scene, animation)).or_insert_with(make).clone()
     }
 
-    /// Radius of the sphere around an instance's mesh in its rest pose, world metres, > 0.
-    pub fn world_radius_m(&self, instance: &Instance) -> f32 {
-        let mut radii_m = self.radii_m.lock().unwrap_or_else(PoisonError::into_inner);
-        let radius_m = *radii_m.entry(instance.node).or_insert_with(|| object_radius_m(&self.asset, instance.node));
-        radius_m.max(f32::MIN_POSITIVE)
-    }
-
-    /// Radius of the sphere around a mesh's positions, in their units, > 0.
-    pub fn rest_radius(&self, mesh: usize) -> f32 {
-        let positions = self.asset.meshes[mesh].primitives.iter().flat_map(|primitive| &primitive.vertices.positions);
-        let bounds = Aabb::around(positions.copied());
-        bounds.half_extent().length().max(f32::MIN_POSITIVE)
+    /// How large an instance's mesh is in its rest pose.
+    pub fn size(&self, instance: &Instance) -> Size {
+        let mut sizes = self.sizes.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || {
+            let meshes = &self.asset.meshes[instance.mesh].primitives;
+            let positions = meshes.iter().flat_map(|primitive| &primitive.vertices.positions);
+            let bounds = Aabb::around(positions.copied());
+            Size {
+                rest_radius: bounds.half_extent().length().max(f32::MIN_POSITIVE),
+                world_radius_m: object_radius_m(&self.asset, instance.node),
+                world_from_rest: object_scale(&self.asset, instance.node),
+            }
+        };
+        *sizes.entry(instance.node).or_insert_with(make)
     }
 
     /// Middle of an instance's positions, object space.
@@ -184,6 +204,11 @@ fn images_of(folder: &Path, options: &LoadOptions) -> impl FnMut(&str) -> Result
         left.memory_limit_bytes = left.memory_limit_bytes.saturating_sub(image.rgba.len() as u64);
         Ok(image)
     }
+}
+
+fn new_id() -> u64 {
+    static NEXT_ID: AtomicU64 = AtomicU64::new(1);
+    NEXT_ID.fetch_add(1, Ordering::Relaxed)
 }
 
 /// A look may put a normal map where the file had none.

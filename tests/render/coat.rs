@@ -33,7 +33,7 @@ fn over(primitive: Primitive, fur: Fur) -> Scene {
     let material = stage.material(plain());
     stage.object(primitive, material, at(Vec3::ZERO));
     let mut scene = stage.scene();
-    scene.materials[material].fur = Some(Fur { distribution_map: Some(map), ..fur });
+    scene.materials_mut()[material].fur = Some(Fur { distribution_map: Some(map), ..fur });
     scene
 }
 
@@ -114,7 +114,7 @@ fn every_shell_covers_what_the_map_says() {
 fn tiling_sets_density() {
     let fur = Fur { cutoff_start: 0.1, cutoff_end: 0.9, ..height_coat() };
     let mut scene = seen_from_above(fur.clone());
-    if let Some(map) = scene.materials[0].fur.as_mut().and_then(|fur| fur.distribution_map.as_mut()) {
+    if let Some(map) = scene.materials_mut()[0].fur.as_mut().and_then(|fur| fur.distribution_map.as_mut()) {
         map.scale = Vec2::splat(2.0);
     }
     headless(|device| {
@@ -211,7 +211,7 @@ fn spots_are_mixed_by_the_map_as_stored() {
         tip_color: Vec3::ONE,
         ..height_coat()
     };
-    scene.materials[material].fur = Some(fur);
+    scene.materials_mut()[material].fur = Some(fur);
     headless(|device| {
         let color = device.picture(&scene, &frame(1)).radiance(9, 9);
         let weight = f64::from(color.z / (color.x + color.z));
@@ -251,7 +251,7 @@ fn a_coat_is_one_draw_and_an_instance_a_shell() {
 fn values_do_not_make_pipelines_and_unused_maps_are_not_loaded() {
     let plan = |fur: Fur| {
         let mut scene = seen_from_above(Fur::default());
-        scene.materials[0].fur = Some(fur);
+        scene.materials_mut()[0].fur = Some(fur);
         Shot::new(&scene, &frame(1)).unwrap_or_else(|error| panic!("{error}")).plan
     };
     let base = plan(Fur::default());

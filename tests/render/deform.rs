@@ -90,9 +90,9 @@ pub fn bent_tube(skinned: bool) -> Scene {
 /// The same, deformed by the twin beforehand.
 fn deformed_tube(skinned: bool) -> Scene {
     let of = bent_tube(skinned);
-    let pose = pose(&of.asset, None, 0.0);
-    let joints = if skinned { joint_matrices(&of.asset, 0, &pose) } else { Vec::new() };
-    let source = &of.asset.meshes[0].primitives[0];
+    let pose = pose(of.asset(), None, 0.0);
+    let joints = if skinned { joint_matrices(of.asset(), 0, &pose) } else { Vec::new() };
+    let source = &of.asset().meshes[0].primitives[0];
     let mut vertices = deform(source, &joints, &WEIGHTS);
     vertices.joints.clear();
     vertices.influences_per_vertex = 0;
@@ -118,9 +118,9 @@ fn a_deformed_mesh_looks_as_its_twin() {
     headless(|device| {
         let frame = options([128, 128], 1);
         let rest = {
-            let mut scene = bent_tube(false);
-            scene.asset.nodes.iter_mut().for_each(|node| node.weights.fill(0.0));
-            device.picture(&scene, &frame)
+            let mut asset = bent_tube(false).asset().clone();
+            asset.nodes.iter_mut().for_each(|node| node.weights.fill(0.0));
+            device.picture(&Scene::from_asset(asset).unwrap(), &frame)
         };
         for skinned in [true, false] {
             let found = device.picture(&bent_tube(skinned), &frame);
@@ -158,7 +158,7 @@ fn fur_on_a_joint_looks_as_fur_on_a_node() {
         let mut scene = stage.scene();
         // Shares of the rest pose, which both have in common.
         let (length, strand_spacing) = (Length::Metres(0.1), Length::Relative(0.07));
-        scene.materials[material].fur = Some(Fur { length, strand_spacing, layers: 12, ..Fur::default() });
+        scene.materials_mut()[material].fur = Some(Fur { length, strand_spacing, layers: 12, ..Fur::default() });
         scene
     };
     headless(|device| {

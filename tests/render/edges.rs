@@ -17,7 +17,7 @@ fn coated(primitive: vair::asset::Primitive, fur: Fur, white_map: bool) -> Scene
     let material = stage.material(plain());
     stage.object(primitive, material, at(Vec3::ZERO));
     let mut scene = stage.scene();
-    scene.materials[material].fur = Some(Fur { distribution_map: white_map.then_some(white), ..fur });
+    scene.materials_mut()[material].fur = Some(Fur { distribution_map: white_map.then_some(white), ..fur });
     scene
 }
 

@@ -45,7 +45,7 @@ fn furred(primitive: Primitive, rotation: Quat, fur: Fur) -> Scene {
     stage.object(primitive, brown, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
     three_lights(&mut stage);
     let mut scene = stage.scene();
-    scene.materials[brown].fur = Some(fur);
+    scene.materials_mut()[brown].fur = Some(fur);
     scene
 }
 

@@ -159,7 +159,7 @@ fn check(
     stage.object(primitive, material, transform);
     let mut scene = stage.scene();
     let layers = fur.layers;
-    scene.materials[material].fur = Some(Fur { distribution_map: Some(white), height_map, ..fur });
+    scene.materials_mut()[material].fur = Some(Fur { distribution_map: Some(white), height_map, ..fur });
     [1, 4]
         .into_iter()
         .flat_map(|msaa| {

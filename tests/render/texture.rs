@@ -205,9 +205,9 @@ fn detail_maps_multiply_the_colour_and_add_their_slopes() {
     stage.object(quad(0.5, 0.5), material, at(Vec3::ZERO));
     stage.light(vair::asset::LightKind::Directional, Vec3::ONE, Vec3::ZERO, to_light);
     let mut scene = stage.scene();
-    scene.materials[0].standard.detail_albedo_texture = Some(maps[0]);
-    scene.materials[0].standard.detail_normal_texture = Some(maps[2]);
-    scene.materials[0].standard.detail_normal_scale = 0.5;
+    scene.materials_mut()[0].standard.detail_albedo_texture = Some(maps[0]);
+    scene.materials_mut()[0].standard.detail_normal_texture = Some(maps[2]);
+    scene.materials_mut()[0].standard.detail_normal_scale = 0.5;
 
     let stored = |texel: [u8; 4]| DVec3::from_array([0, 1, 2].map(|i| f64::from(texel[i]) / 255.0));
     let grey = linear_from_srgb(0.5);

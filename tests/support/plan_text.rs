@@ -12,7 +12,7 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     line("instances:".to_owned());
     for instance in &plan.instances {
         let (mesh, primitive) = (instance.mesh, instance.primitive);
-        let material = &scene.materials[instance.material].name;
+        let material = &scene.materials()[instance.material].name;
         let mirrored = if instance.mirrored { ", mirrored" } else { "" };
         let skinned = if instance.skin.is_some() { ", skinned" } else { "" };
         let morphs = instance.morph_weights.len();
@@ -46,13 +46,13 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     }
     line(format!(
         "bytes: {} of streams, {} of indices",
-        plan.stream_bytes(&scene.asset),
-        plan.index_bytes(&scene.asset)
+        plan.stream_bytes(&scene.asset()),
+        plan.index_bytes(&scene.asset())
     ));
     line("textures:".to_owned());
     for texture in &plan.textures {
         let coding = if texture.srgb { "colour" } else { "data" };
-        line(format!("  {:?}, {coding}", scene.asset.images[texture.image].name));
+        line(format!("  {:?}, {coding}", scene.asset().images[texture.image].name));
     }
     line("left out:".to_owned());
     for left_out in &plan.left_out {

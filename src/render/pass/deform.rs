@@ -15,7 +15,7 @@ pub fn record(encoder: &mut Encoder, frame: &Frame) {
     encoder.compute_pass(Pass::Deform.name(), &[], |pass| {
         for (deform, group) in plan.deforms.iter().zip(&frame.data.deform_groups) {
             let instance = &plan.instances[deform.instance];
-            let primitive = &frame.scene.asset.meshes[instance.mesh].primitives[instance.primitive];
+            let primitive = &frame.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
             let vertex_count = primitive.vertices.positions.len() as u32;
             pass.pipeline(frame.resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]));
             pass.bind(0, group);

@@ -27,10 +27,10 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         }
         let instance = &plan.instances[draw.instance];
         let index = (instance.mesh, instance.primitive);
-        let primitive = &scene.asset.meshes[index.0].primitives[index.1];
+        let primitive = &scene.asset().meshes[index.0].primitives[index.1];
         let (material, layers, double_sided) = match draw.kind {
             DrawKind::Surface(surface) => {
-                (resources.surface(surface, spec), 1, scene.materials[surface.material].standard.double_sided)
+                (resources.surface(surface, spec), 1, scene.materials()[surface.material].standard.double_sided)
             }
             // Shells that face away carry the strands that stand out over the outline.
             DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, true),
