@@ -45,15 +45,15 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
     let pipelines = compute.chain(plan.pipelines.iter().chain([&tonemap]).map(pipeline));
     let textures = plan.textures.iter().map(|texture| {
         let name = &scene.asset().images[texture.image].name;
-        json!({ "name": name, "format": format(texture), "bytes": texture_bytes(&scene.asset(), texture) })
+        json!({ "name": name, "format": format(texture), "bytes": texture_bytes(scene.asset(), texture) })
     });
     json!({
         "passes": passes.collect::<Vec<_>>(),
         "pipelines": pipelines.collect::<Vec<_>>(),
         "textures": textures.collect::<Vec<_>>(),
         "memory": {
-            "vertex_bytes": plan.stream_bytes(&scene.asset()), "index_bytes": plan.index_bytes(&scene.asset()),
-            "texture_bytes": plan.textures.iter().map(|texture| texture_bytes(&scene.asset(), texture)).sum::<u64>(),
+            "vertex_bytes": plan.stream_bytes(scene.asset()), "index_bytes": plan.index_bytes(scene.asset()),
+            "texture_bytes": plan.textures.iter().map(|texture| texture_bytes(scene.asset(), texture)).sum::<u64>(),
             "target_bytes": target_bytes(options),
         },
         "left_out": plan.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
@@ -73,7 +73,7 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     for spec in plan.pipelines.iter().chain([&tonemap(options)]) {
         text += &format!("  {} with {} ({})\n", spec.fragment, spec.vertex, constants_text(&spec.constants));
     }
-    let (streams, indices) = (plan.stream_bytes(&scene.asset()), plan.index_bytes(&scene.asset()));
+    let (streams, indices) = (plan.stream_bytes(scene.asset()), plan.index_bytes(scene.asset()));
     text += &format!("vertex streams: {streams} bytes, indices: {indices} bytes\n");
     for ((mesh, primitive), streams) in &plan.streams {
         let name = scene.asset().meshes[*mesh].name.as_deref().unwrap_or("mesh");
@@ -81,7 +81,7 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     }
     text += &format!("targets: {} bytes\ntextures\n", target_bytes(options));
     for texture in &plan.textures {
-        let (name, bytes) = (&scene.asset().images[texture.image].name, texture_bytes(&scene.asset(), texture));
+        let (name, bytes) = (&scene.asset().images[texture.image].name, texture_bytes(scene.asset(), texture));
         text += &format!("  {name} ({}, {bytes} bytes)\n", format(texture));
     }
     text += "left out\n";

@@ -139,7 +139,7 @@ impl FrameData {
                 let buffer = match joints.entry(skin) {
                     Entry::Occupied(known) => known.into_mut(),
                     Entry::Vacant(new) => {
-                        let matrices = joint_matrices(&scene.asset(), skin, pose);
+                        let matrices = joint_matrices(scene.asset(), skin, pose);
                         new.insert(filled(gpu, "joints", storage, &matrices)?)
                     }
                 };

@@ -44,7 +44,7 @@ fn transform(map: Option<TextureRef>) -> TextureTransform {
 
 /// The uniform block of a coat of `layers` shells on a mesh of that size.
 pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32) -> FurUniforms {
-    let world = |length: Length| length.metres(size.world_radius_m);
+    let world = |length: Length| length.metres(size.world_radius_m());
     FurUniforms {
         base_color: fur.base_color.unwrap_or(standard.base_color.truncate()).extend(1.0).to_array(),
         root_color: fur.root_color.to_array(),

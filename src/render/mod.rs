@@ -99,7 +99,7 @@ impl Shot {
     /// # Errors
     /// When an option is out of range or names what the scene lacks.
     pub fn new(scene: &Scene, options: &FrameOptions) -> Result<Self, RenderError> {
-        options.check(&scene.asset())?;
+        options.check(scene.asset())?;
         let asset = &scene.asset();
         let scene_index = options.scene.unwrap_or(asset.default_scene);
         let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {

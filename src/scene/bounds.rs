@@ -59,28 +59,6 @@ pub fn world_hull(asset: &Asset, scene: usize, pose: &Pose) -> Hull {
     hull
 }
 
-/// Radius of the sphere around a node's mesh in its rest pose, world metres: what relative fur lengths are measured
-/// against, so that all primitives of a mesh agree and animation does not change it. 0 for a node without a mesh.
-///
-/// Rigid: half the diagonal of the object-space box, its axes scaled as the node scales them (turning changes nothing).
-/// Skinned: half the diagonal of the rest pose's world box.
-pub fn object_radius_m(asset: &Asset, node: usize) -> f32 {
-    let Some(mesh) = asset.nodes[node].mesh else { return 0.0 };
-    let rest = pose(asset, None, 0.0);
-    let (joints, axis_scale) = match asset.nodes[node].skin {
-        Some(skin) => (joint_matrices(asset, skin, &rest), Vec3::ONE),
-        None => {
-            let matrix = rest.world_from_node[node];
-            let length = |column: glam::Vec4| column.truncate().length();
-            (Vec::new(), Vec3::new(length(matrix.x_axis), length(matrix.y_axis), length(matrix.z_axis)))
-        }
-    };
-    let bounds = asset.meshes[mesh].primitives.iter().fold(Aabb::EMPTY, |bounds, primitive| {
-        bounds.union(Aabb::around(outer_points(primitive, Mat4::IDENTITY, &joints, &rest.weights[node])))
-    });
-    (bounds.half_extent() * axis_scale).length()
-}
-
 /// Only vertices that an index uses count: files share one vertex list among primitives.
 fn outer_points(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weights: &[f32]) -> Vec<Vec3> {
     let mut used = vec![false; primitive.vertices.positions.len()];
@@ -179,16 +157,6 @@ mod tests {
         let joints = joint_matrices(&asset, 0, &pose(&asset, None, 0.0));
         let boxes = joint_boxes(&asset.meshes[0].primitives[0], &[true, true, false], &joints, &[]);
         assert!((boxes.max - exact.max).length() < 1e-5 && (boxes.min - exact.min).length() < 1e-5);
-        assert!((object_radius_m(&asset, 0) - 0.5 * tip.length()).abs() < 1e-5);
-    }
-
-    #[test]
-    fn an_object_radius_scales_with_its_node_and_not_with_its_turn() {
-        let mut asset = asset();
-        assert_eq!(object_radius_m(&asset, 0), 1.0);
-        asset.nodes[0].transform = asset.nodes[1].transform;
-        assert!((object_radius_m(&asset, 0) - 3.0).abs() < 1e-5);
-        assert_eq!(object_radius_m(&asset, 1), 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::animation::pose;
-use super::bounds::{object_radius_m, object_scale, world_hull};
+use super::bounds::{object_scale, world_hull};
 use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
 use crate::material::{self, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
@@ -19,10 +19,15 @@ use std::sync::{Mutex, PoisonError};
 pub struct Size {
     /// Radius of its positions' box, in their units, > 0.
     pub rest_radius: f32,
-    /// Radius of its box in the world, metres: what relative fur lengths are shares of.
-    pub world_radius_m: f32,
     /// World metres per unit of its positions, > 0.
     pub world_from_rest: f32,
+}
+
+impl Size {
+    /// Its radius in the world: what relative lengths of fur are shares of.
+    pub fn world_radius_m(self) -> f32 {
+        self.rest_radius * self.world_from_rest
+    }
 }
 
 /// Poses of a clip that its outline is taken from.
@@ -172,7 +177,6 @@ impl Scene {
             let bounds = Aabb::around(positions.copied());
             Size {
                 rest_radius: bounds.half_extent().length().max(f32::MIN_POSITIVE),
-                world_radius_m: object_radius_m(&self.asset, instance.node),
                 world_from_rest: object_scale(&self.asset, instance.node),
             }
         };

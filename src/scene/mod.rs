@@ -15,7 +15,7 @@ mod load;
 mod shell;
 
 pub use animation::{Pose, pose};
-pub use bounds::{object_radius_m, object_scale, world_hull};
+pub use bounds::{object_scale, world_hull};
 pub use camera::{Camera, CameraChoice, DEFAULT_FOV_DEG, DEFAULT_PHI_DEG, DEFAULT_THETA_DEG, camera};
 pub use choice::{find_animation, find_camera, find_scene, find_variant};
 pub use deform::deform;

@@ -46,8 +46,8 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     }
     line(format!(
         "bytes: {} of streams, {} of indices",
-        plan.stream_bytes(&scene.asset()),
-        plan.index_bytes(&scene.asset())
+        plan.stream_bytes(scene.asset()),
+        plan.index_bytes(scene.asset())
     ));
     line("textures:".to_owned());
     for texture in &plan.textures {
