@@ -195,7 +195,7 @@ fn declarations_are_consistent() {
     check::<Standard>("standard");
     check::<Fur>("fur");
     assert_eq!((Fur::parameter("length").unwrap().default)(), "\"4%\"");
-    assert_eq!((Fur::parameter("strand_spacing").unwrap().default)(), "\"0.6%\"");
+    assert_eq!((Fur::parameter("strand_spacing").unwrap().default)(), "\"1%\"");
     let mut fur = Fur { occlusion: f32::NAN, layers: 9999, force: Vec3::splat(f32::INFINITY), ..Default::default() };
     fur.clamp();
     assert_eq!((fur.occlusion, fur.layers, fur.force), (0.7, 256, Vec3::NEG_Y));

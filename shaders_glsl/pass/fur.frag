@@ -6,6 +6,7 @@
 #include "fur_material.glsl"
 #include "light.glsl"
 #include "uv.glsl"
+#include "direction.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
 #include "lock.glsl"
@@ -60,9 +61,10 @@ vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
 
 void main() {
     float height = height_and_length.x;
-    vec3 normal = normalize(root_direction_in_world);
-    vec3 strand = normalize(strand_in_world);
-    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : normalize(frame.eye_in_world - position_in_world);
+    vec3 normal = direction_or(root_direction_in_world, frame.view_in_world);
+    vec3 strand = direction_or(strand_in_world, normal);
+    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world
+                                              : direction_or(frame.eye_in_world - position_in_world, normal);
     float cosine_to_eye = dot(normal, to_eye);
 
     // The shell stands for a slab. Through it the view ray shifts, relative to the strands, by half_slab on the
@@ -97,7 +99,7 @@ void main() {
 #endif
     {
         float cells_per_unit = 1.0 / fur.strand_spacing;
-        vec3 rest_normal = normalize(direction_in_rest);
+        vec3 rest_normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
         vec3 half_segment = (in_steps.x * rest_x + in_steps.y * rest_y) * cells_per_unit;
         float half_length = length(half_segment);
         float seen_length = min(half_length, STRAND_SEGMENT);

@@ -5,6 +5,7 @@
 #include "object.glsl"
 #include "standard_material.glsl"
 #include "fur_material.glsl"
+#include "direction.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
 #include "uv.glsl"
@@ -52,15 +53,10 @@ layout(location = 6) out vec4 uv_sets;
 layout(location = 7) out vec3 vertex_color;
 #endif
 
-vec3 unit_or(vec3 v, vec3 fallback) {
-    float length_squared = dot(v, v);
-    return length_squared > 1e-30 ? v * inversesqrt(length_squared) : fallback;
-}
-
 void main() {
     mat4 world_from_object = objects[draw.object_index].world_from_object;
     vec3 root = (world_from_object * vec4(position, 1.0)).xyz;
-    vec3 direction = unit_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
+    vec3 direction = direction_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
 
     uint shell = uint(gl_InstanceIndex);
     uint layer = INNER_FIRST ? shell : fur.layers - 1u - shell;
@@ -83,9 +79,9 @@ void main() {
 #endif
 
     vec3 force = fur.force;
-    if (FORCE_IN_OBJECT) { force = unit_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
+    if (FORCE_IN_OBJECT) { force = direction_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
     // The comb lays strands over in the tangent plane; its axes come from the world's up direction.
-    vec3 side = unit_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
+    vec3 side = direction_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
     vec2 comb = fur.comb;
 #ifdef MAPS
     if (HAS_COMB_MAP) {
@@ -97,13 +93,13 @@ void main() {
     float strength = length(total);
     if (strength > 1.0) { total /= strength; }
 
-    vec3 sideways = unit_or(total - dot(total, direction) * direction, side);
+    vec3 sideways = direction_or(total - dot(total, direction) * direction, side);
     vec2 bent;
     vec3 strand;
     if (LINEAR_BEND) {
         bent = vec2(0.0, height);
         position_in_world = root + (direction * height + total * height * height) * strand_length;
-        strand = unit_or(direction + 2.0 * height * total, direction);
+        strand = direction_or(direction + 2.0 * height * total, direction);
     } else {
         float angle = strand_bend_angle(direction, total);
         bent = strand_arc(height, angle);

@@ -3,6 +3,7 @@
 // The standard material: metallic-roughness, lit by punctual lights and a constant ambient.
 #include "frame.glsl"
 #include "standard_material.glsl"
+#include "direction.glsl"
 #include "light.glsl"
 #include "uv.glsl"
 #include "hash.glsl"
@@ -149,8 +150,7 @@ void main() {
 #ifdef UNLIT
     radiance = vec4(color.rgb * opacity, opacity);
 #else
-    float normal_length = dot(normal_in_world, normal_in_world);
-    vec3 normal = normal_length > 1e-20 ? normal_in_world * inversesqrt(normal_length) : frame.view_in_world;
+    vec3 normal = direction_or(normal_in_world, frame.view_in_world);
     normal = shading_normal(normal);
     if (DOUBLE_SIDED && !gl_FrontFacing) { normal = -normal; }
 
@@ -176,7 +176,7 @@ void main() {
     }
 #endif
 
-    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : normalize(frame.eye_in_world - position_in_world);
+    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : direction_or(frame.eye_in_world - position_in_world, normal);
     mat3 tangent_frame = frame_around(normal);
     // A bent normal may turn away from the eye; grazing is then the nearest view that has a meaning.
     vec3 eye_in_tangent = to_eye * tangent_frame;

@@ -43,7 +43,7 @@ crate::parameters! {
         height_strength: f32 as Number = 1.0, UNIT, "", "How much of height_map counts.";
         layers: u32 as Count = 20, (1.0, 256.0), "", "Shell layers; layer i of N stands for the heights i/N to (i+1)/N.";
         distribution_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R says where strands stand and how thick; its tiling sets their density. None: procedural strands.";
-        strand_spacing: Length as Distance = Length::Relative(0.006), (0.0, 1e6), "m", "Mean spacing of the procedural strands.";
+        strand_spacing: Length as Distance = Length::Relative(0.01), (0.0, 1e6), "m", "Mean spacing of the procedural strands.";
         thickness: f32 as Number = 0.7, UNIT, "", "Radius of the procedural strands, relative to half their spacing.";
         shape: Shape as OneOf<Shape> = Shape::Cone, UNBOUNDED, "", "How strands thin towards the tip: cone or paraboloid.";
         cutoff_start: f32 as Number = 0.0, UNIT, "", "Threshold at the root; higher thins the roots.";

@@ -7,6 +7,7 @@
 pub mod albedo;
 pub mod color;
 pub mod coverage;
+pub mod direction;
 pub mod ggx;
 pub mod hash;
 pub mod light;
