@@ -83,14 +83,19 @@ void main() {
     vec3 rest_y = dFdy(root_in_rest);
     // The narrower side of the pixel: the wider one, at grazing angles, runs along the slab's segment.
     float pixel_in_rest = sqrt(min(dot(rest_x, rest_x), dot(rest_y, rest_y)));
+#ifdef MAPS
+    // Taken here: after a discard the neighbours that a derivative needs may be gone.
+    vec4 uv_sets_x = dFdx(uv_sets);
+    vec4 uv_sets_y = dFdy(uv_sets);
+#endif
     float own_random = 0.5;
     float opacity;
     float slope;
 #ifdef MAPS
     if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
-        vec2 gradient_x = dFdx(map_uv);
-        vec2 gradient_y = dFdy(map_uv);
+        vec2 gradient_x = uv_gradient(fur.distribution_transform, uv_sets_x);
+        vec2 gradient_y = uv_gradient(fur.distribution_transform, uv_sets_y);
         float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
         slope = fwidth(map);
         opacity = strand_opacity(map, threshold, slope, map >= threshold ? 1.0 : 0.0);
@@ -140,11 +145,15 @@ void main() {
 #ifdef MAPS
     if (HAS_BASE_COLOR_MAP) {
         vec2 uv = uv_transformed(fur.base_color_transform, uv_sets.xy, uv_sets.zw);
-        color *= texture(sampler2D(base_color_map, base_color_sampler), uv).rgb;
+        vec2 gradient_x = uv_gradient(fur.base_color_transform, uv_sets_x);
+        vec2 gradient_y = uv_gradient(fur.base_color_transform, uv_sets_y);
+        color *= textureGrad(sampler2D(base_color_map, base_color_sampler), uv, gradient_x, gradient_y).rgb;
     }
     if (HAS_SPOT_MAP) {
         vec2 uv = uv_transformed(fur.spot_transform, uv_sets.xy, uv_sets.zw);
-        color = mix(color, fur.spot_color, texture(sampler2D(spot_map, spot_sampler), uv).r);
+        vec2 gradient_x = uv_gradient(fur.spot_transform, uv_sets_x);
+        vec2 gradient_y = uv_gradient(fur.spot_transform, uv_sets_y);
+        color = mix(color, fur.spot_color, textureGrad(sampler2D(spot_map, spot_sampler), uv, gradient_x, gradient_y).r);
     }
 #endif
     color *= mix(fur.root_color, fur.tip_color, height);

@@ -119,19 +119,10 @@ vec3 shading_normal(vec3 geometric_normal) {
 }
 #endif
 
-// Any frame around the normal serves an isotropic lobe. Source: Duff et al. 2017, "Building an Orthonormal Basis,
-// Revisited".
-mat3 frame_around(vec3 normal) {
-    float side = normal.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (side + normal.z);
-    float b = normal.x * normal.y * a;
-    return mat3(vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x),
-                vec3(b, side + normal.y * normal.y * a, -normal.y), normal);
-}
-
 void main() {
     vec4 color = base_color();
     float opacity = 1.0;
+    int mask = -1;
     uint mode = ALPHA_MODE;
     uint samples = SAMPLE_COUNT;
     if (mode == 1u) {
@@ -139,11 +130,7 @@ void main() {
         float slope = max(fwidth(color.a), 1e-4);
         float edge = samples == 1u ? (color.a >= material.alpha_cutoff ? 1.0 : 0.0)
                                    : clamp((color.a - material.alpha_cutoff) / slope + 0.5, 0.0, 1.0);
-        int mask = coverage_mask(edge, samples, 0.5, uvec2(gl_FragCoord.xy));
-        if (mask == 0) { discard; }
-        gl_SampleMask[0] = mask;
-    } else {
-        gl_SampleMask[0] = -1;
+        mask = coverage_mask(edge, samples, 0.5, uvec2(gl_FragCoord.xy));
     }
     if (mode == 2u) { opacity = clamp(color.a, 0.0, 1.0); }
 
@@ -177,7 +164,7 @@ void main() {
 #endif
 
     vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : direction_or(frame.eye_in_world - position_in_world, normal);
-    mat3 tangent_frame = frame_around(normal);
+    mat3 tangent_frame = direction_frame(normal);
     // A bent normal may turn away from the eye; grazing is then the nearest view that has a meaning.
     vec3 eye_in_tangent = to_eye * tangent_frame;
     eye_in_tangent.z = max(eye_in_tangent.z, 1e-3);
@@ -190,4 +177,7 @@ void main() {
     }
     radiance = vec4((sum + emissive) * opacity, opacity);
 #endif
+    // Last: the textures above need all neighbours for their derivatives.
+    if (mask == 0) { discard; }
+    gl_SampleMask[0] = mask;
 }

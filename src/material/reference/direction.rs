@@ -1,10 +1,18 @@
 //! Twin of `direction.glsl`: unit vectors from vectors that may be nothing.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// `vector` at unit length, or `fallback` where it is shorter than 1e-15.
 pub fn or(vector: DVec3, fallback: DVec3) -> DVec3 {
     if vector.length_squared() > 1e-30 { vector.normalize() } else { fallback }
+}
+
+/// Tangent and bitangent of the frame around a unit normal (Duff et al. 2017).
+pub fn frame(normal: DVec3) -> [DVec3; 2] {
+    // The rotation that takes +-z to the normal along the shortest way, applied to x and y.
+    let pole = if normal.z >= 0.0 { DVec3::Z } else { DVec3::NEG_Z };
+    let turn = DQuat::from_rotation_arc(pole, normal);
+    [turn * DVec3::X, turn * (DVec3::Y * pole.z)]
 }
 
 #[cfg(test)]
@@ -17,5 +25,18 @@ mod tests {
         assert_eq!(or(DVec3::splat(1e-300), DVec3::Y), DVec3::Y);
         assert!((or(DVec3::splat(1e-10), DVec3::Y).length() - 1.0).abs() < 1e-12);
         assert!((or(DVec3::splat(1e30), DVec3::Y).length() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn frames_are_orthonormal_and_those_of_the_closed_form() {
+        for [x, y, z] in [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.6, -0.48, 0.64], [0.8, 0.0, -0.6], [1.0, 0.0, 0.0]] {
+            let normal = DVec3::new(x, y, z);
+            let [tangent, bitangent] = frame(normal);
+            assert!((tangent.cross(bitangent) - normal).length() < 1e-12);
+            let side = if z >= 0.0 { 1.0 } else { -1.0 };
+            let a = -1.0 / (side + z);
+            let closed = DVec3::new(1.0 + side * x * x * a, side * x * y * a, -side * x);
+            assert!((tangent - closed).length() < 1e-12, "{normal}");
+        }
     }
 }
