@@ -4,6 +4,9 @@ const uint LIGHT_DIRECTIONAL = 0;
 const uint LIGHT_POINT = 1;
 const uint LIGHT_SPOT = 2;
 
+// Largest radiance that every HDR format holds (the ten-bit blue of B10G11R11).
+const float RADIANCE_LIMIT = 64512.0;
+
 struct FrameUniforms {
     mat4 clip_from_world;      // reversed Z: 1 at the near plane, 0 far away; Y up
     vec3 eye_in_world;         // metres
@@ -11,7 +14,7 @@ struct FrameUniforms {
     vec3 view_in_world;        // unit vector against the view direction; the view vector of a parallel camera
     float orthographic;        // 1 for a parallel camera, 0 for perspective
     vec3 ambient_radiance;     // linear RGB, from every direction alike
-    uint sample_count;         // samples a pixel of the targets: 1 or 4
+    float _reserved_0;
 };
 
 struct LightSource {

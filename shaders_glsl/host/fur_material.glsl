@@ -1,7 +1,8 @@
 // The fur material of one object. Mirrored to Rust by build.rs.
 
 struct FurUniforms {
-    vec4 base_color;           // linear RGBA factor
+    vec3 base_color;           // linear RGB factor
+    float _reserved_3;
     vec3 root_color;           // linear RGB factor at the skin
     float length_m;            // strand length in world units
     vec3 tip_color;            // linear RGB factor at the tip

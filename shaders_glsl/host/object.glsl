@@ -2,7 +2,11 @@
 
 struct ObjectUniforms {
     mat4 world_from_object;    // identity for skinned objects: the deform pass already wrote world space
-    mat4 normal_from_object;   // cofactor matrix of world_from_object, for normals; w unused
+    mat4 normal_from_object;   // cofactor matrix of world_from_object, for normals
+    float handedness;          // -1 where world_from_object mirrors, otherwise 1
+    float _reserved_0;
+    float _reserved_1;
+    float _reserved_2;
 };
 
 struct ObjectDraw {

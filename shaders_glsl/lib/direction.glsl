@@ -5,8 +5,8 @@ vec3 direction_or(vec3 vector, vec3 fallback) {
     return length_squared > 1e-30 ? vector * inversesqrt(length_squared) : fallback;
 }
 
-// Tangent, bitangent and normal: some frame around the normal, which serves an isotropic lobe. Source: Duff et al. 2017, "Building an Orthonormal Basis,
-// Revisited".
+// Tangent, bitangent and normal: some frame around the normal, which serves an isotropic lobe. Source: Duff et al.
+// 2017, "Building an Orthonormal Basis, Revisited".
 mat3 direction_frame(vec3 normal) {
     float side = normal.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (side + normal.z);

@@ -7,11 +7,12 @@ const float STRAND_JITTER = 0.5;
 // Strands root in points at most this far (in cells) off the surface; one point a cell then makes one strand
 // per spacing squared of surface. Half a cell is also as far as the eight nearest cells are sure to tell.
 const float STRAND_REACH = 0.5;
-// Longest half of a view ray's segment (in cells) that strands are looked up along.
-const float STRAND_SEGMENT = 0.5;
+// Longest half of a view ray's segment (in cells) that strands are looked up along. The eight cells then miss a strand
+// in one place of a thousand.
+const float STRAND_SEGMENT = 0.25;
 
 struct StrandSample {
-    float profile; // 1 on the axis of a full-length strand, falling linearly to 0 at its root radius
+    float profile; // 1 on the axis of a full-length strand, falling linearly to 0 at its root radius and below it outside
     float random;  // in [0, 1), one number a strand
 };
 
@@ -28,7 +29,7 @@ float strand_segment_distance(vec3 point, vec3 half_segment) {
 // onto the surface ("slab shell"); its length is limited to what the eight nearest cells can answer.
 StrandSample strand_field(vec3 position_in_cells, vec3 normal, float radius_in_cells, vec3 half_segment) {
     vec3 corner = floor(position_in_cells - 0.5);
-    StrandSample nearest = StrandSample(0.0, 0.0);
+    StrandSample nearest = StrandSample(-1e3, 0.0);
     for (int index = 0; index < 8; ++index) {
         vec3 cell = corner + vec3(float(index & 1), float((index >> 1) & 1), float(index >> 2));
         vec3 random = hash_cell(ivec3(cell));

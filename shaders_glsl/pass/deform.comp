@@ -47,6 +47,7 @@ void main() {
     }
 #endif
     vec3 fallback = value;
+    float handedness = 1.0;
 #ifdef SKIN
     mat4 blended = mat4(0.0);
     uint influence = vertex * draw.influences_per_vertex;
@@ -56,7 +57,10 @@ void main() {
     }
     if (stream == 0u) { value = (blended * vec4(value, 1.0)).xyz; }
     else if (stream == 1u) { value = normal_matrix(mat3(blended)) * value; }
-    else { value = mat3(blended) * value; }
+    else {
+        value = mat3(blended) * value;
+        if (determinant(mat3(blended)) < 0.0) { handedness = -1.0; }
+    }
 #endif
     if (stream != 0u) {
         // A direction that a morph or a squashed joint brings to zero keeps its source direction.
@@ -69,5 +73,5 @@ void main() {
     target[out_first] = value.x;
     target[out_first + 1u] = value.y;
     target[out_first + 2u] = value.z;
-    if (stream == 2u) { target[out_first + 3u] = source[first + 3u]; }
+    if (stream == 2u) { target[out_first + 3u] = handedness * source[first + 3u]; }
 }

@@ -12,6 +12,7 @@
 #include "lock.glsl"
 #include "coverage.glsl"
 
+layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
 layout(constant_id = 6) const bool BLEND = false;            // 1: over-blending instead of sample coverage
 layout(constant_id = 7) const bool PARABOLOID = false;
@@ -40,7 +41,7 @@ layout(location = 3) in vec3 root_in_rest;
 layout(location = 4) in vec3 direction_in_rest;
 layout(location = 5) in vec2 height_and_length;
 #ifdef MAPS
-layout(location = 6) in vec4 uv_sets;
+layout(location = 6) in vec4 interpolated_uv_sets;
 #endif
 #ifdef COLOR
 layout(location = 7) in vec3 vertex_color;
@@ -85,8 +86,15 @@ void main() {
     float pixel_in_rest = sqrt(min(dot(rest_x, rest_x), dot(rest_y, rest_y)));
 #ifdef MAPS
     // Taken here: after a discard the neighbours that a derivative needs may be gone.
-    vec4 uv_sets_x = dFdx(uv_sets);
-    vec4 uv_sets_y = dFdy(uv_sets);
+    vec4 uv_sets_x = dFdx(interpolated_uv_sets);
+    vec4 uv_sets_y = dFdy(interpolated_uv_sets);
+    vec4 uv_sets = interpolated_uv_sets;
+    if (PROJECT_UV) {
+        // Here and not at the vertices: a triangle may span two sides of the box. The changes take this pixel's side.
+        uv_sets = vec4(uv_projected(root_in_rest, direction_in_rest) * fur.projection_scale, 0.0, 0.0);
+        uv_sets_x = vec4(uv_projected(rest_x, direction_in_rest) * fur.projection_scale, 0.0, 0.0);
+        uv_sets_y = vec4(uv_projected(rest_y, direction_in_rest) * fur.projection_scale, 0.0, 0.0);
+    }
 #endif
     float own_random = 0.5;
     float opacity;
@@ -97,7 +105,8 @@ void main() {
         vec2 gradient_x = uv_gradient(fur.distribution_transform, uv_sets_x);
         vec2 gradient_y = uv_gradient(fur.distribution_transform, uv_sets_y);
         float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
-        slope = fwidth(map);
+        // A map is 0 between strands, however far they are: the edge must end there.
+        slope = min(fwidth(map), 2.0 * threshold);
         opacity = strand_opacity(map, threshold, slope, map >= threshold ? 1.0 : 0.0);
         own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
     } else
@@ -131,14 +140,14 @@ void main() {
         if (opacity <= 0.0) { discard; }
     } else {
         // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
-        float grain = coverage_grain(root_in_rest, pixel_in_rest);
-        float rounding = mix(0.5, grain, KEEP_PARTIAL ? 1.0 : unresolved);
-        mask = coverage_mask(opacity, samples, rounding, uvec2(gl_FragCoord.xy));
+        vec2 grain = coverage_grain(root_in_rest, pixel_in_rest);
+        float rounding = mix(0.5, grain.x, KEEP_PARTIAL ? 1.0 : unresolved);
+        mask = coverage_mask(opacity, samples, rounding, grain.y);
         if (mask == 0) { discard; }
     }
     gl_SampleMask[0] = mask;
 
-    vec3 color = fur.base_color.rgb;
+    vec3 color = fur.base_color;
 #ifdef COLOR
     color *= vertex_color;
 #endif
@@ -167,5 +176,6 @@ void main() {
         vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
         sum += light.irradiance * through * scattered;
     }
+    sum = min(sum, vec3(RADIANCE_LIMIT));
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
 }

@@ -11,11 +11,9 @@
 #include "uv.glsl"
 
 layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
-layout(constant_id = 1) const bool LINEAR_BEND = false;    // 1: classic displacement, which lengthens strands
 layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
 layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
-layout(constant_id = 4) const bool FORCE_IN_OBJECT = false;
-layout(constant_id = 13) const bool HAS_COMB_MAP = false;
+layout(constant_id = 13) const bool HAS_COMB_MAP = false; // only with COMB
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
@@ -38,6 +36,9 @@ layout(location = 6) in vec2 uv_1;
 #endif
 #ifdef COLOR
 layout(location = 5) in vec4 color;
+#endif
+#ifdef COMB
+layout(location = 7) in vec3 shell_side;
 #endif
 
 layout(location = 0) out vec3 position_in_world;
@@ -78,10 +79,11 @@ void main() {
     }
 #endif
 
-    vec3 force = fur.force;
-    if (FORCE_IN_OBJECT) { force = direction_or(mat3(world_from_object) * force, vec3(0.0)) * length(force); }
-    // The comb lays strands over in the tangent plane; its axes come from the world's up direction.
-    vec3 side = direction_or(cross(vec3(0.0, 1.0, 0.0), direction), vec3(1.0, 0.0, 0.0));
+    vec3 total = fur.force;
+#ifdef COMB
+    // The comb lays strands over in the tangent plane; its axes are fixed to the surface and move with it.
+    vec3 side = mat3(world_from_object) * shell_side;
+    side = direction_or(side - dot(side, direction) * direction, vec3(0.0));
     vec2 comb = fur.comb;
 #ifdef MAPS
     if (HAS_COMB_MAP) {
@@ -89,23 +91,16 @@ void main() {
         comb += textureLod(sampler2D(comb_map, comb_sampler), uv, 0.0).rg * 2.0 - 1.0;
     }
 #endif
-    vec3 total = force + comb.x * side + comb.y * cross(direction, side);
+    total += comb.x * side + comb.y * cross(direction, side);
+#endif
     float strength = length(total);
     if (strength > 1.0) { total /= strength; }
 
-    vec3 sideways = direction_or(total - dot(total, direction) * direction, side);
-    vec2 bent;
-    vec3 strand;
-    if (LINEAR_BEND) {
-        bent = vec2(0.0, height);
-        position_in_world = root + (direction * height + total * height * height) * strand_length;
-        strand = direction_or(direction + 2.0 * height * total, direction);
-    } else {
-        float angle = strand_bend_angle(direction, total);
-        bent = strand_arc(height, angle);
-        position_in_world = root + (sideways * bent.x + direction * bent.y) * strand_length;
-        strand = sideways * sin(angle * height) + direction * cos(angle * height);
-    }
+    vec3 sideways = direction_or(total - dot(total, direction) * direction, vec3(0.0));
+    float angle = strand_bend_angle(direction, total);
+    vec2 bent = strand_arc(height, angle);
+    position_in_world = root + (sideways * bent.x + direction * bent.y) * strand_length;
+    vec3 strand = sideways * sin(angle * height) + direction * cos(angle * height);
 
     root_direction_in_world = direction;
     strand_in_world = strand;

@@ -130,7 +130,7 @@ void main() {
         float slope = max(fwidth(color.a), 1e-4);
         float edge = samples == 1u ? (color.a >= material.alpha_cutoff ? 1.0 : 0.0)
                                    : clamp((color.a - material.alpha_cutoff) / slope + 0.5, 0.0, 1.0);
-        mask = coverage_mask(edge, samples, 0.5, uvec2(gl_FragCoord.xy));
+        mask = coverage_mask(edge, samples, 0.5, 0.0);
     }
     if (mode == 2u) { opacity = clamp(color.a, 0.0, 1.0); }
 
@@ -175,7 +175,7 @@ void main() {
         vec3 light_in_tangent = light.direction_in_world * tangent_frame;
         sum += light.irradiance * standard_brdf_times_cosine(surface, eye_in_tangent, light_in_tangent);
     }
-    radiance = vec4((sum + emissive) * opacity, opacity);
+    radiance = vec4(min(sum + emissive, vec3(RADIANCE_LIMIT)) * opacity, opacity);
 #endif
     // Last: the textures above need all neighbours for their derivatives.
     if (mask == 0) { discard; }

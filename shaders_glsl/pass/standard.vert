@@ -3,6 +3,7 @@
 // Standard and unlit surfaces.
 #include "frame.glsl"
 #include "object.glsl"
+#include "direction.glsl"
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 2, binding = 0, std430) readonly buffer ObjectList { ObjectUniforms objects[]; };
@@ -35,13 +36,15 @@ void main() {
     gl_Position = frame.clip_from_world * world;
     gl_PointSize = 1.0;
 #ifndef UNLIT
-    normal_in_world = mat3(objects[draw.object_index].normal_from_object) * normal;
+    // Unit length before interpolation, as MikkTSpace wants it: an object's scale must not tilt mapped normals.
+    normal_in_world = direction_or(mat3(objects[draw.object_index].normal_from_object) * normal, vec3(0.0));
 #endif
 #ifdef UV
     uv_sets = vec4(uv_0, uv_1);
 #endif
 #ifdef TANGENT
-    tangent_in_world = vec4(mat3(world_from_object) * tangent.xyz, tangent.w);
+    float side = tangent.w * objects[draw.object_index].handedness;
+    tangent_in_world = vec4(direction_or(mat3(world_from_object) * tangent.xyz, vec3(0.0)), side);
 #endif
 #ifdef COLOR
     vertex_color = color;

@@ -27,7 +27,7 @@ pub fn run(arguments: &InspectArguments) -> Result<()> {
         return output::print_json(&vair::material::look_schema());
     }
     let scene = arguments.scene.load()?;
-    let options = arguments.scene.frame_options(&scene)?;
+    let options = arguments.scene.frame_options(&scene, false)?;
     let plan = Shot::new(&scene, &options)?.plan;
     if arguments.json {
         return output::print_json(&as_json(&scene, &plan, &options));

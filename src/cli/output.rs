@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Prints to standard output. A closed pipe is the reader's choice, not a failure.
 pub fn print(text: &str) -> Result<()> {
-    print_bytes(text.as_bytes())
+    print_bytes(harmless(text).as_bytes())
 }
 
 /// Prints bytes, such as a picture.
@@ -21,12 +21,18 @@ pub fn print_bytes(bytes: &[u8]) -> Result<()> {
 
 /// Prints the one JSON object. A number that is not finite never gets here: `json!` makes it null.
 pub fn print_json(value: &Value) -> Result<()> {
-    print(&format!("{value:#}\n"))
+    print_bytes(format!("{value:#}\n").as_bytes())
+}
+
+/// Text for a terminal: names come from files, and a control character in one could command the terminal.
+fn harmless(text: &str) -> String {
+    let show = |c: char| if c.is_control() && c != '\n' { c.escape_default().to_string() } else { c.to_string() };
+    text.chars().map(show).collect()
 }
 
 /// Prints one line on standard error, whatever the message holds; nobody may be listening there either.
 pub fn complain(message: &str) {
-    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = harmless(&message.split_whitespace().collect::<Vec<_>>().join(" "));
     let _ = writeln!(std::io::stderr(), "vair: {line}");
 }
 

@@ -22,7 +22,7 @@ pub fn run(arguments: &PresetsArguments) -> Result<()> {
             .iter()
             .map(|preset| {
                 let parameters: serde_json::Map<String, Value> =
-                    preset.parameters().map(|(key, value)| (key.to_owned(), value.to_string().into())).collect();
+                    preset.parameters().map(|(key, value)| (key.to_owned(), value.into())).collect();
                 json!({ "name": preset.name, "kind": preset.kind(), "help": preset.help, "parameters": parameters })
             })
             .collect();
@@ -37,7 +37,15 @@ pub fn run(arguments: &PresetsArguments) -> Result<()> {
         for (kind, list) in [("standard", Standard::PARAMETERS), ("fur", Fur::PARAMETERS)] {
             text += &format!("{kind}\n");
             for entry in list {
-                text += &format!("  {:<28} {} [{}]: {}\n", entry.name, entry.kind, (entry.default)(), entry.help);
+                let choices =
+                    if entry.choices.is_empty() { String::new() } else { format!(" ({})", entry.choices.join(", ")) };
+                let unit = if entry.unit.is_empty() { String::new() } else { format!(" {}", entry.unit) };
+                let range = match entry.range {
+                    (least, most) if least.is_finite() && most.is_finite() => format!(", {least} to {most}{unit}"),
+                    _ => unit,
+                };
+                let (name, kind, default) = (entry.name, entry.kind, (entry.default)());
+                text += &format!("  {name:<28} {kind}{choices}{range} [{default}]: {}\n", entry.help);
             }
         }
         return output::print(&text);

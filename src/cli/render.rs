@@ -67,7 +67,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
     let scene = arguments.scene.load()?;
     let load_ms = start.elapsed().as_secs_f64() * 1e3;
-    let options = arguments.scene.frame_options(&scene)?;
+    let options = arguments.scene.frame_options(&scene, arguments.frames.is_some())?;
     if !arguments.json {
         arguments.scene.complain(&scene);
     }

@@ -34,7 +34,7 @@ pub struct SceneArguments {
     /// Scene of the file, by name or index.
     #[arg(long, value_name = "NAME/INDEX")]
     scene: Option<String>,
-    /// Animation clip, by name or index.
+    /// Animation clip, by name or index; with --time or --frames, the first one where none is named.
     #[arg(long, value_name = "NAME/INDEX")]
     animation: Option<String>,
     /// Seconds into the clip.
@@ -127,10 +127,10 @@ impl SceneArguments {
         }
     }
 
-    /// The frame that these options ask for.
-    pub fn frame_options(&self, scene: &Scene) -> Result<FrameOptions> {
+    /// The frame that these options ask for; `moves` where it is the first of a sequence.
+    pub fn frame_options(&self, scene: &Scene, moves: bool) -> Result<FrameOptions> {
         let file = || self.scene_file.as_deref().unwrap_or(Path::new("gallery")).display().to_string();
-        let asset = &scene.asset();
+        let asset = scene.asset();
         let named = |text: &Option<String>, find: fn(&Asset, &str) -> Result<usize, SceneError>| {
             text.as_deref().map(|text| find(asset, text)).transpose().with_context(file)
         };
@@ -139,7 +139,8 @@ impl SceneArguments {
             size: self.size,
             camera: camera.map_or_else(|| self.view(), CameraChoice::Index),
             scene: named(&self.scene, scene::find_scene)?,
-            animation: named(&self.animation, scene::find_animation)?,
+            animation: named(&self.animation, scene::find_animation)?
+                .or_else(|| ((moves || self.time != 0.0) && !asset.animations.is_empty()).then_some(0)),
             time_s: self.time,
             variant: named(&self.variant, scene::find_variant)?,
             tonemap: match self.tonemap {

@@ -79,3 +79,16 @@ impl std::fmt::Display for Value {
         }
     }
 }
+
+impl From<&Value> for serde_json::Value {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Other(_) => Self::Null,
+            Value::Switch(value) => (*value).into(),
+            Value::Number(value) => (*value).into(),
+            Value::Text(text) => text.clone().into(),
+            Value::List(items) => items.iter().map(Self::from).collect(),
+            Value::Table(entries) => entries.iter().map(|(key, value)| (key.clone(), Self::from(value))).collect(),
+        }
+    }
+}

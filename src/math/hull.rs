@@ -43,6 +43,12 @@ impl Hull {
         }
     }
 
+    /// The hull of everything within `margin` of this one.
+    pub fn grown(&self, margin: f32) -> Self {
+        let outward = self.points.iter().zip(directions());
+        Self { points: outward.map(|(&point, &direction)| point + direction * margin).collect() }
+    }
+
     /// The extreme points; empty without any.
     pub fn points(&self) -> &[Vec3] {
         &self.points
@@ -91,6 +97,8 @@ mod tests {
             let reach = |points: &[Vec3]| points.iter().map(|point| point.dot(direction)).fold(f32::MIN, f32::max);
             assert!(reach(hull.points()) > 0.987 * reach(&cloud));
         }
-        assert!(Hull::default().bounds().is_empty() && Hull::of_box(Aabb::EMPTY).points().is_empty());
+        let grown = hull.grown(0.5).bounds();
+        assert!((grown.max - hull.bounds().max - 0.5).length() < 1e-6);
+        assert!(Hull::default().grown(1.0).bounds().is_empty() && Hull::of_box(Aabb::EMPTY).points().is_empty());
     }
 }

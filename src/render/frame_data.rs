@@ -2,18 +2,18 @@
 
 use super::Shot;
 use super::material::fur_uniforms;
-use super::options::FrameOptions;
 use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan, fur_maps};
 use super::resources::Resources;
 use super::stream::Stream;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
-use crate::material::Material;
-use crate::scene::{Camera, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
+use crate::material::{ForceSpace, Fur, Material};
+use crate::math::normal_matrix;
+use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
 use bytemuck::NoUninit;
-use glam::{Mat3, Mat4};
+use glam::{Mat4, Vec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -46,14 +46,13 @@ impl FrameData {
         resources: &Resources,
         scene: &Scene,
         shot: &Shot,
-        options: &FrameOptions,
         hdr: &Image,
         tonemap: PipelineSpec,
     ) -> Result<Self, GpuError> {
         let Shot { plan, pose, camera, lighting } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
-        let frame = frame_uniforms(camera, lighting, options);
+        let frame = frame_uniforms(camera, lighting);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
         let tonemap_group =
@@ -76,7 +75,7 @@ impl FrameData {
         data.bind_deforms(gpu, resources, scene, plan, pose)?;
         data.bind_shared(gpu, resources, plan)?;
         for draw in plan.fur.iter().chain(&plan.transparent) {
-            data.bind_coat(gpu, resources, scene, plan, draw)?;
+            data.bind_coat(gpu, resources, scene, shot, draw)?;
         }
         Ok(data)
     }
@@ -100,14 +99,15 @@ impl FrameData {
         gpu: &Gpu,
         resources: &Resources,
         scene: &Scene,
-        plan: &Plan,
+        Shot { plan, pose, .. }: &Shot,
         draw: &Draw,
     ) -> Result<(), GpuError> {
         let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
         let Material { standard, fur: Some(fur), name } = &scene.materials()[material] else { return Ok(()) };
-        let size = scene.size(&plan.instances[draw.instance]);
-        let uniforms =
-            filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[fur_uniforms(fur, standard, size, layers)])?;
+        let instance = &plan.instances[draw.instance];
+        let force = force_in_world(fur, scene, instance, pose);
+        let values = fur_uniforms(fur, standard, scene.size(instance), layers, force);
+        let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[values])?;
         let spec = &plan.pipelines[draw.pipeline];
         let group = resources.bind_material(scene, spec, name, ("FurBlock", &uniforms), &fur_maps(fur, standard))?;
         self.coat_groups.insert((draw.instance, draw.pipeline), group);
@@ -168,7 +168,7 @@ fn filled<T: NoUninit>(gpu: &Gpu, name: &str, usage: vk::BufferUsageFlags, value
     Ok(buffer)
 }
 
-fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) -> FrameUniforms {
+fn frame_uniforms(camera: &Camera, lighting: &Lighting) -> FrameUniforms {
     FrameUniforms {
         clip_from_world: camera.clip_from_world().to_cols_array_2d(),
         eye_in_world: camera.eye_in_world().to_array(),
@@ -176,22 +176,29 @@ fn frame_uniforms(camera: &Camera, lighting: &Lighting, options: &FrameOptions) 
         view_in_world: camera.backwards_in_world().to_array(),
         orthographic: if camera.is_orthographic { 1.0 } else { 0.0 },
         ambient_radiance: lighting.ambient_radiance.to_array(),
-        sample_count: options.msaa,
+        ..Default::default()
     }
 }
 
+/// Unit direction times strength. A force of the object turns with its node, or with the first joint of its skin: a rig
+/// turns as a whole.
+fn force_in_world(fur: &Fur, scene: &Scene, instance: &Instance, pose: &Pose) -> Vec3 {
+    let carrier = match (fur.force_space, instance.skin) {
+        (ForceSpace::World, _) => Mat4::IDENTITY,
+        (ForceSpace::Object, None) => instance.world_from_object,
+        (ForceSpace::Object, Some(skin)) => {
+            joint_matrices(scene.asset(), skin, pose).first().copied().unwrap_or(Mat4::IDENTITY)
+        }
+    };
+    carrier.transform_vector3(fur.force).normalize_or(Vec3::ZERO) * fur.force_strength
+}
+
 fn object_uniforms(world_from_object: Mat4) -> ObjectUniforms {
-    let linear = Mat3::from_mat4(world_from_object);
-    // Inverse transpose times |determinant|: defined for singular matrices, and right for mirrored ones.
-    let cofactors = Mat3::from_cols(
-        linear.y_axis.cross(linear.z_axis),
-        linear.z_axis.cross(linear.x_axis),
-        linear.x_axis.cross(linear.y_axis),
-    );
-    let normal = if linear.determinant() < 0.0 { cofactors * -1.0 } else { cofactors };
     ObjectUniforms {
         world_from_object: world_from_object.to_cols_array_2d(),
-        normal_from_object: Mat4::from_mat3(normal).to_cols_array_2d(),
+        normal_from_object: Mat4::from_mat3(normal_matrix(world_from_object)).to_cols_array_2d(),
+        handedness: if world_from_object.determinant() < 0.0 { -1.0 } else { 1.0 },
+        ..Default::default()
     }
 }
 

@@ -20,6 +20,12 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
             vertices.colors.iter().flat_map(|color| bytemuck::cast::<_, [u8; 16]>(color.to_array())).collect()
         }
         Stream::ShellDirection => bytemuck::cast_slice(&shell_directions_of_mesh(mesh)[primitive]).to_vec(),
+        Stream::ShellSide => {
+            let directions = &shell_directions_of_mesh(mesh)[primitive];
+            // Straight up and down there is no "around the vertical"; X is as good as any.
+            let side = |direction: &Vec3| Vec3::Y.cross(*direction).normalize_or(Vec3::X);
+            directions.iter().flat_map(|direction| bytemuck::cast::<_, [u8; 12]>(side(direction).to_array())).collect()
+        }
     }
 }
 
@@ -34,7 +40,8 @@ pub fn morph_delta_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u
             Stream::Normal => source.morph_targets[target].normals.clone(),
             Stream::Tangent => source.morph_targets[target].tangents.clone(),
             Stream::ShellDirection => shell_direction_deltas(mesh, primitive, target),
-            Stream::Uv0 | Stream::Uv1 | Stream::Color => Vec::new(),
+            // A morph turns the side little, and the shader keeps it across the morphed direction.
+            Stream::ShellSide | Stream::Uv0 | Stream::Uv1 | Stream::Color => Vec::new(),
         };
         deltas.extend((0..count).map(|vertex| offsets.get(vertex).copied().unwrap_or(Vec3::ZERO)));
     }

@@ -42,19 +42,21 @@ fn transform(map: Option<TextureRef>) -> TextureTransform {
     }
 }
 
-/// The uniform block of a coat of `layers` shells on a mesh of that size.
-pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32) -> FurUniforms {
+/// The uniform block of a coat of `layers` shells on a mesh of that size; `force_in_world` is a unit direction times a
+/// strength in [0, 1].
+pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32, force_in_world: Vec3) -> FurUniforms {
+    let (color, texture) = fur.color_over(standard);
     let world = |length: Length| length.metres(size.world_radius_m());
     FurUniforms {
-        base_color: fur.base_color.unwrap_or(standard.base_color.truncate()).extend(1.0).to_array(),
+        base_color: color.to_array(),
         root_color: fur.root_color.to_array(),
         tip_color: fur.tip_color.to_array(),
         spot_color: fur.spot_color.to_array(),
         length_m: world(fur.length),
         // A spacing of nothing would make infinitely many strands.
         strand_spacing: (world(fur.strand_spacing) / size.world_from_rest).max(size.rest_radius * 1e-5),
-        strand_radius: 0.5 * fur.thickness.max(1e-3),
-        force: (fur.force.normalize_or(Vec3::ZERO) * fur.force_strength).to_array(),
+        strand_radius: 0.5 * fur.thickness.max(1e-6),
+        force: force_in_world.to_array(),
         color_variation: fur.color_variation,
         comb: fur.comb.to_array(),
         cutoff_start: fur.cutoff_start,
@@ -71,7 +73,7 @@ pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32) -> 
         projection_scale: 1.0 / size.rest_radius,
         layers,
         distribution_transform: transform(fur.distribution_map),
-        base_color_transform: transform(fur.base_color_texture.or(standard.base_color_texture)),
+        base_color_transform: transform(texture),
         comb_transform: transform(fur.comb_map),
         height_transform: transform(fur.height_map),
         spot_transform: transform(fur.spot_map),

@@ -222,7 +222,24 @@ impl Renderer {
         self.record_shot(encoder, scene, &shot, options, target)
     }
 
+    /// A frame that failed half-way may have left streams and images without their contents: nothing of it is kept.
     fn record_shot(
+        &mut self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        target: &Image,
+    ) -> Result<(), RenderError> {
+        let outcome = self.try_record_shot(encoder, scene, shot, options, target);
+        if outcome.is_err() {
+            self.resources.forget_scene();
+            self.scene = None;
+        }
+        outcome
+    }
+
+    fn try_record_shot(
         &mut self,
         encoder: &mut Encoder,
         scene: &Scene,
@@ -245,7 +262,7 @@ impl Renderer {
         let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
         self.resources.prepare(scene, &shot.plan)?;
         self.resources.make_pipeline(&tonemap)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, options, targets.hdr(), tonemap)?;
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
         let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
         frame::record(encoder, &frame);
         Ok(())

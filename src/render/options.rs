@@ -135,7 +135,8 @@ pub enum Background {
     Environment,
     /// Nothing: the picture has an alpha channel.
     Transparent,
-    /// A colour, linear RGB, shown as it is (no tone curve).
+    /// A colour, linear RGB, shown as it is (no tone curve). With [`HdrFormat::B10g11r11`], which cannot tell what was
+    /// drawn, it is light instead: exposure and tone curve apply.
     Color(Vec3),
 }
 

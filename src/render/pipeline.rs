@@ -4,9 +4,10 @@
 use super::options::{FrameOptions, HdrFormat, Tonemap};
 use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
-use crate::material::{AlphaMode, Blend, ForceSpace, Fur, Shape, Standard};
+use crate::material::{AlphaMode, Blend, Fur, Shape, Standard};
 use crate::shader::{Shader, table};
 use ash::vk;
+use glam::Vec2;
 
 /// Depth is 32-bit float, reversed: 1 at the near plane.
 pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
@@ -138,13 +139,13 @@ impl PipelineSpec {
         let maps = [
             ("HAS_HEIGHT_MAP", fur.height_map.is_some()),
             ("HAS_DISTRIBUTION_MAP", fur.distribution_map.is_some()),
-            ("HAS_BASE_COLOR_MAP", fur.base_color_texture.or(standard.base_color_texture).is_some()),
+            ("HAS_BASE_COLOR_MAP", fur.color_over(standard).1.is_some()),
             ("HAS_SPOT_MAP", fur.spot_map.is_some()),
             ("HAS_COMB_MAP", fur.comb_map.is_some()),
         ];
         let has_maps = maps.iter().any(|(_, has)| *has);
         let color = !primitive.vertices.colors.is_empty();
-        let defines = [("MAPS", has_maps), ("COLOR", color)];
+        let combed = fur.comb != Vec2::ZERO || fur.comb_map.is_some();
         let mut constants = vec![("SAMPLE_COUNT", options.msaa)];
         let switches = [
             ("INNER_FIRST", blend),
@@ -152,13 +153,12 @@ impl PipelineSpec {
             ("KEEP_PARTIAL", fur.blend == Blend::Coverage),
             ("PARABOLOID", fur.shape == Shape::Paraboloid),
             ("HAS_LOCKS", fur.clump > 0.0 || fur.curl > 0.0),
-            ("FORCE_IN_OBJECT", fur.force_space == ForceSpace::Object),
             ("PROJECT_UV", has_maps && primitive.vertices.uv_sets.is_empty()),
         ];
         constants.extend(switches.iter().chain(&maps).filter(|(_, holds)| *holds).map(|(name, _)| (*name, 1)));
         Self {
-            vertex: permutation("fur.vert", &defines),
-            fragment: permutation("fur.frag", &defines),
+            vertex: permutation("fur.vert", &[("MAPS", has_maps), ("COMB", combed), ("COLOR", color)]),
+            fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color)]),
             constants,
             topology: Topology::Triangles,
             blend,
@@ -184,6 +184,12 @@ impl PipelineSpec {
             samples: 1,
             color_format: target_format,
         }
+    }
+
+    /// Whether its shaders sample the map that they call `<name>_map`.
+    pub fn samples_map(&self, name: &str) -> bool {
+        let constant = format!("HAS_{}_MAP", name.to_uppercase());
+        self.constants.iter().any(|(name, value)| *name == constant && *value != 0)
     }
 
     /// Short name for labels and reports: the fragment shader's permutation.

@@ -149,18 +149,15 @@ impl Plan {
 
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
-        self.add_draw(scene, index, PipelineSpec::surface(&standard, geometry, options), DrawKind::Surface(surface));
-        self.add_textures(scene, &surface_maps(&standard));
+        let spec = PipelineSpec::surface(&standard, geometry, options);
+        self.add_textures(scene, &spec, &surface_maps(&standard));
+        self.add_draw(scene, index, spec, DrawKind::Surface(surface));
 
         if let Some(fur) = fur {
             let layers = options.layers_of_coat(fur.layers);
-            self.add_draw(
-                scene,
-                index,
-                PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options),
-                DrawKind::Fur { material, layers },
-            );
-            self.add_textures(scene, &fur_maps(fur, &scene.materials()[material].standard));
+            let spec = PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options);
+            self.add_textures(scene, &spec, &fur_maps(fur, &scene.materials()[material].standard));
+            self.add_draw(scene, index, spec, DrawKind::Fur { material, layers });
         }
     }
 
@@ -187,8 +184,9 @@ impl Plan {
         list.push(Draw { instance: index, pipeline: index_of(&mut self.pipelines, spec), kind });
     }
 
-    fn add_textures(&mut self, scene: &Scene, maps: &[Map]) {
-        for map in maps {
+    /// Only what the pipeline samples: a map without UVs, tangents or light to show it stays off the device.
+    fn add_textures(&mut self, scene: &Scene, spec: &PipelineSpec, maps: &[Map]) {
+        for map in maps.iter().filter(|map| spec.samples_map(map.name)) {
             if let Some(texture) = map.texture {
                 self.textures
                     .insert(TextureUse { image: scene.asset().textures[texture.texture].image, srgb: map.srgb });
@@ -233,11 +231,15 @@ impl Plan {
         let lit = self.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let mut reasons = vec![
             (self.deforms.is_empty(), "deform pass", "nothing in the scene is skinned or morphed"),
-            (self.fur.is_empty(), "fur pass and pipeline", "no material has fur that cuts out or covers"),
+            (
+                self.fur.is_empty(),
+                "fur pass and pipeline",
+                "no triangles have a material with fur that cuts out or covers",
+            ),
             (self.transparent.is_empty(), "transparent pass and pipeline", "no material blends"),
-            (!lit, "light list", "every surface is unlit"),
+            (!lit, "light list", "nothing that is drawn is lit"),
             (options.msaa == 1, "multisampled targets and resolve", "one sample a pixel was asked for"),
-            (self.textures.is_empty(), "textures and samplers", "no material in use has a map"),
+            (self.textures.is_empty(), "textures and samplers", "no pipeline in use samples a map"),
         ];
         reasons.push((true, "look-up tables", "the standard material's albedo is a closed fit"));
         reasons.push((true, "shadow maps", "lights cast no shadows yet"));
@@ -257,7 +259,7 @@ impl Plan {
         let images = scene.asset().images.len().saturating_sub(used.len());
         if images > 0 {
             let what = format!("{images} of {} images", scene.asset().images.len());
-            self.left_out.push(LeftOut { what, why: "no material in use samples them".to_owned() });
+            self.left_out.push(LeftOut { what, why: "no pipeline in use samples them".to_owned() });
         }
     }
 }
@@ -301,7 +303,7 @@ pub fn fur_maps(fur: &Fur, standard: &Standard) -> [Map; 5] {
     [
         Map::data("height", fur.height_map),
         Map::data("distribution", fur.distribution_map),
-        Map::color("base_color", fur.base_color_texture.or(standard.base_color_texture)),
+        Map::color("base_color", fur.color_over(standard).1),
         Map::data("spot", fur.spot_map),
         Map::data("comb", fur.comb_map),
     ]
@@ -311,7 +313,7 @@ pub fn fur_maps(fur: &Fur, standard: &Standard) -> [Map; 5] {
 pub fn has_stream(primitive: &Primitive, stream: Stream) -> bool {
     let vertices = &primitive.vertices;
     match stream {
-        Stream::Position | Stream::ShellDirection => true,
+        Stream::Position | Stream::ShellDirection | Stream::ShellSide => true,
         Stream::Normal => !vertices.normals.is_empty(),
         Stream::Tangent => !vertices.tangents.is_empty(),
         Stream::Uv0 => !vertices.uv_sets.is_empty(),

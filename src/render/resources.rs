@@ -155,7 +155,7 @@ impl Resources {
             maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
         let mut offered = vec![(block.0, Resource::Buffer(block.1))];
         for (map, (texture_name, sampler_name)) in maps.iter().zip(&names) {
-            let (image, sampler) = self.map(scene, map.texture, map.srgb);
+            let (image, sampler) = self.map(scene, map.texture.filter(|_| spec.samples_map(map.name)), map.srgb);
             offered.push((texture_name, Resource::Texture(image)));
             offered.push((sampler_name, Resource::Sampler(sampler)));
         }
@@ -311,7 +311,9 @@ fn sampler_desc(sampler: &asset::Sampler) -> SamplerDesc {
             Some(true) => vk::SamplerMipmapMode::LINEAR,
             _ => vk::SamplerMipmapMode::NEAREST,
         },
-        max_lod: if sampler.mip_linear.is_some() { vk::LOD_CLAMP_NONE } else { 0.0 },
+        // A quarter, not 0: with 0 every texel counts as magnified and the minification filter is never used (Vulkan 1.3,
+        // VkSamplerCreateInfo).
+        max_lod: if sampler.mip_linear.is_some() { vk::LOD_CLAMP_NONE } else { 0.25 },
         ..SamplerDesc::default()
     }
 }

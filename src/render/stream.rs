@@ -19,6 +19,8 @@ pub enum Stream {
     Color,
     /// Three floats: unit vector along which shells are pushed; vertices that share a position share it.
     ShellDirection,
+    /// Three floats: unit vector across the shell direction, around the rest pose's vertical; the comb's first axis.
+    ShellSide,
 }
 
 /// A vertex input and where it comes from.
@@ -36,7 +38,7 @@ impl Stream {
     /// Bytes a vertex.
     pub fn stride(self) -> u32 {
         match self {
-            Self::Position | Self::Normal | Self::ShellDirection => 12,
+            Self::Position | Self::Normal | Self::ShellDirection | Self::ShellSide => 12,
             Self::Tangent | Self::Color => 16,
             Self::Uv0 | Self::Uv1 => 8,
         }
@@ -46,7 +48,7 @@ impl Stream {
     pub fn deform_kind(self) -> Option<u32> {
         match self {
             Self::Position => Some(0),
-            Self::Normal | Self::ShellDirection => Some(1),
+            Self::Normal | Self::ShellDirection | Self::ShellSide => Some(1),
             Self::Tangent => Some(2),
             Self::Uv0 | Self::Uv1 | Self::Color => None,
         }
@@ -66,6 +68,7 @@ pub fn inputs(vertex: &Shader) -> Vec<Input> {
         "uv_1" => (Stream::Uv1, false),
         "color" => (Stream::Color, false),
         "shell_direction" => (Stream::ShellDirection, false),
+        "shell_side" => (Stream::ShellSide, false),
         "rest_position" => (Stream::Position, true),
         "rest_direction" => (Stream::ShellDirection, true),
         other => panic!("no vertex stream is named {other}"),

@@ -1,7 +1,8 @@
 //! Morphing and skinning on the CPU: the twin of the compute pass, and the source of posed bounds.
 //!
 //! Morph first, then skin (glTF 2.0, 3.7.2.2 and 3.7.3.3). Linear blend skinning: `sum(weight * joint)` as one matrix;
-//! normals by its inverse transpose, tangents by the matrix itself, both normalised again.
+//! normals by its inverse transpose, tangents by the matrix itself, both normalised again; where it mirrors, the
+//! bitangent changes sides.
 
 use glam::{Mat4, Vec3};
 
@@ -29,7 +30,8 @@ pub fn deform(primitive: &Primitive, joints: &[Mat4], weights: &[f32]) -> Vertic
         }
         if let Some(tangent) = vertices.tangents.get_mut(vertex) {
             let rest = tangent.truncate();
-            *tangent = skin.transform_vector3(tangents[vertex]).normalize_or(rest).extend(tangent.w);
+            let handedness = if skin.determinant() < 0.0 { -tangent.w } else { tangent.w };
+            *tangent = skin.transform_vector3(tangents[vertex]).normalize_or(rest).extend(handedness);
         }
     }
     vertices

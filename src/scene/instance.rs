@@ -1,6 +1,6 @@
 //! What a scene draws: one entry per primitive of every node that holds a mesh.
 
-use glam::Mat4;
+use glam::{Mat4, Vec3};
 
 use super::Pose;
 use crate::asset::Asset;
@@ -26,8 +26,8 @@ pub struct Instance {
     pub morph_weights: Vec<f32>,
 }
 
-/// All primitives of a scene in file order (depth first). Nodes whose transform is singular are invisible and left out;
-/// a scene index beyond the file shows nothing.
+/// All primitives of a scene in file order (depth first). Nodes whose scale is 0 on all axes are invisible and left
+/// out (glTF 2.0, 3.5.3; a flattened one is shown); a scene index beyond the file shows nothing.
 ///
 /// A skinned mesh is taken as mirrored when its first joint mirrors: rigs mirror as a whole.
 pub fn instances(asset: &Asset, scene: usize, pose: &Pose, variant: Option<usize>) -> Vec<Instance> {
@@ -38,7 +38,8 @@ pub fn instances(asset: &Asset, scene: usize, pose: &Pose, variant: Option<usize
         let skin = node.skin.filter(|&skin| !asset.skins[skin].joints.is_empty());
         let carrier = skin.map_or(index, |skin| asset.skins[skin].joints[0]);
         let volume = unit_volume(pose.world_from_node[carrier]);
-        if skin.is_none() && volume.abs() < SINGULAR_VOLUME {
+        let vanishes = |matrix: Mat4| (0..3).all(|axis| matrix.col(axis).truncate() == Vec3::ZERO);
+        if skin.is_none() && vanishes(pose.world_from_node[index]) {
             continue;
         }
         for (primitive, data) in asset.meshes[mesh].primitives.iter().enumerate() {
@@ -80,9 +81,6 @@ pub fn nodes_of_scene(asset: &Asset, scene: usize) -> Vec<usize> {
     nodes
 }
 
-/// Below this share of a cube's volume a transform counts as flat: f32 rotations of an exactly flat one stay under it.
-const SINGULAR_VOLUME: f32 = 1e-6;
-
 /// Determinant of the 3x3 part with its columns normalised: independent of scale, 0 when a column vanishes.
 fn unit_volume(matrix: Mat4) -> f32 {
     let axis = |column: glam::Vec4| column.truncate().normalize_or_zero();
@@ -94,7 +92,7 @@ mod tests {
     use super::*;
     use crate::asset::{AssetScene, Mesh, Node, Primitive, Skin, Transform};
     use crate::scene::pose;
-    use glam::{Quat, Vec3};
+    use glam::Quat;
 
     fn scaled(scale: Vec3, children: Vec<usize>) -> Node {
         let transform = Transform::Trs { translation: Vec3::ZERO, rotation: Quat::from_rotation_x(0.3), scale };
@@ -121,9 +119,11 @@ mod tests {
     }
 
     #[test]
-    fn flat_nodes_are_invisible_with_their_children_and_tiny_ones_are_not() {
+    fn nothing_is_invisible_with_its_children_and_flat_or_tiny_is_not() {
         let flat = asset(vec![scaled(Vec3::new(1.0, 0.0, 1.0), vec![1]), scaled(Vec3::ONE, vec![])]);
-        assert!(instances(&flat, 0, &pose(&flat, None, 0.0), None).is_empty());
+        assert_eq!(instances(&flat, 0, &pose(&flat, None, 0.0), None).len(), 2);
+        let nothing = asset(vec![scaled(Vec3::ZERO, vec![1]), scaled(Vec3::ONE, vec![])]);
+        assert!(instances(&nothing, 0, &pose(&nothing, None, 0.0), None).is_empty());
         let tiny = asset(vec![scaled(Vec3::splat(1e-12), vec![])]);
         assert_eq!(instances(&tiny, 0, &pose(&tiny, None, 0.0), None).len(), 1);
     }

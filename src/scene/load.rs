@@ -6,7 +6,7 @@ use super::bounds::{object_scale, world_hull};
 use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
 use crate::material::{self, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
-use crate::scene::Instance;
+use crate::scene::{Instance, instances};
 use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -151,8 +151,8 @@ impl Scene {
         }
     }
 
-    /// Outline of a scene over a whole clip, so that a sequence is framed once and every frame of it alike; of the rest
-    /// pose without a clip.
+    /// Outline of a scene and its coats over a whole clip, so that a sequence is framed once and every frame of it alike;
+    /// of the rest pose without a clip.
     pub fn outline(&self, scene: usize, animation: Option<usize>) -> Hull {
         let mut outlines = self.outlines.lock().unwrap_or_else(PoisonError::into_inner);
         let make = || {
@@ -163,9 +163,19 @@ impl Scene {
                 let time_s = duration_s * index as f32 / poses as f32;
                 hull.extend(world_hull(&self.asset, scene, &pose(&self.asset, animation, time_s)).points());
             }
-            hull
+            hull.grown(self.longest_coat_m(scene))
         };
         outlines.entry((scene, animation)).or_insert_with(make).clone()
+    }
+
+    /// Length of the longest strands in a scene, metres.
+    fn longest_coat_m(&self, scene: usize) -> f32 {
+        let rest = pose(&self.asset, None, 0.0);
+        let length_m = |instance: &Instance| {
+            let fur = self.materials[instance.material].fur.as_ref()?;
+            Some(fur.length.metres(self.size(instance).world_radius_m()))
+        };
+        instances(&self.asset, scene, &rest, None).iter().filter_map(length_m).fold(0.0, f32::max)
     }
 
     /// How large an instance's mesh is in its rest pose.

@@ -14,7 +14,7 @@ pub const REACH: f64 = 0.5;
 /// `position` and `half_segment` are in cells, `normal` is a unit vector, `radius` is in cells. Looks at every cell
 /// that can matter, not at the shader's eight.
 pub fn field(position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -> (f64, f64) {
-    let mut nearest = (0.0, 0.0);
+    let mut nearest = (-1e3, 0.0);
     let middle = position.floor();
     for x in -2..=2 {
         for y in -2..=2 {
@@ -51,6 +51,18 @@ pub fn mean_coverage(threshold: f64, radius: f64, half_length: f64) -> f64 {
     let radius = radius * (1.0 - threshold / 0.875).max(0.0);
     let area = PI * radius * radius * (8.0 / 15.0) + 2.0 * radius * (2.0 / 3.0) * 2.0 * half_length;
     1.0 - (-area).exp()
+}
+
+/// How far strands are below the eye's resolution; `slope` is the change of the profile over a pixel.
+pub fn unresolved(slope: f64) -> f64 {
+    let x = ((slope - 0.75) / 1.25).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// Opacity of a profile at a threshold, one pixel wide at the edge.
+pub fn opacity(profile: f64, threshold: f64, slope: f64, mean_coverage: f64) -> f64 {
+    let edge = ((profile - threshold) / slope.max(1e-6) + 0.5).clamp(0.0, 1.0);
+    edge + (mean_coverage - edge) * unresolved(slope)
 }
 
 /// Threshold of the profile at a height in the coat.
@@ -198,6 +210,25 @@ mod tests {
                 let expected = mean_coverage(threshold, 0.35, half_length);
                 // Sampling noise over about 900 strands is 0.01; points stratified by cell overlap less than chance.
                 assert!((measured - expected).abs() < 0.04, "{measured} for {expected} at {threshold}, {half_length}");
+            }
+        }
+    }
+
+    #[test]
+    fn opacity_keeps_its_mean_at_every_distance() {
+        for threshold in [0.025, 0.125, 0.4] {
+            let mean = mean_coverage(threshold, 0.35, 0.0);
+            for slope in [0.05, 0.1, 0.3, 0.6, 0.75, 1.0, 1.5, 2.0, 4.0] {
+                let side = 200;
+                let sum: f64 = (0..side * side)
+                    .map(|index| {
+                        let place = DVec3::new(f64::from(index % side) * 0.137, f64::from(index / side) * 0.137, 0.3);
+                        opacity(field(place, DVec3::Z, 0.35, DVec3::ZERO).0, threshold, slope, mean)
+                    })
+                    .sum();
+                let found = sum / f64::from(side * side);
+                // The edge is filtered where strands end in all directions, so a slope of one reaches half a radius out.
+                assert!((found - mean).abs() < 0.06, "{found} for {mean} at threshold {threshold}, slope {slope}");
             }
         }
     }

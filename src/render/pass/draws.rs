@@ -9,8 +9,10 @@ use crate::gpu::RenderPass;
 use crate::render::pipeline::shader;
 use crate::render::plan::{Draw, DrawKind};
 use crate::render::stream::inputs;
+use crate::scene::{Instance, joint_matrices};
 use crate::shader::layout::ObjectDraw;
 use ash::vk::{CullModeFlags, FrontFace};
+use glam::Mat4;
 
 /// Records draws in their order.
 pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
@@ -64,11 +66,25 @@ pub fn far_to_near(draws: &[Draw], frame: &Frame) -> Vec<Draw> {
     let camera = &frame.shot.camera;
     let depth = |draw: &Draw| {
         let instance = &frame.shot.plan.instances[draw.instance];
-        let middle = instance.world_from_object.transform_point3(frame.scene.middle_in_object(instance));
+        let carrier = match instance.skin {
+            // The mean of its joints, as its vertices weigh them.
+            Some(skin) => mean_joint(frame, instance, skin),
+            None => instance.world_from_object,
+        };
+        let middle = carrier.transform_point3(frame.scene.middle_in_object(instance));
         (middle - camera.eye_in_world()).dot(-camera.backwards_in_world())
     };
     let mut sorted: Vec<(f32, Draw)> = draws.iter().map(|draw| (depth(draw), *draw)).collect();
     // A coat lies over its own skin: at equal depth the order of the plan holds, since the sort is stable.
     sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
     sorted.into_iter().map(|(_, draw)| draw).collect()
+}
+
+fn mean_joint(frame: &Frame, instance: &Instance, skin: usize) -> Mat4 {
+    let joints = joint_matrices(frame.scene.asset(), skin, &frame.shot.pose);
+    let primitive = &frame.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
+    let influences = &primitive.vertices.joints;
+    let total: f32 = influences.iter().map(|(_, weight)| weight).sum();
+    let sum = influences.iter().fold(Mat4::ZERO, |sum, &(joint, weight)| sum + joints[usize::from(joint)] * weight);
+    if total > 0.0 { sum * total.recip() } else { Mat4::IDENTITY }
 }
