@@ -30,10 +30,8 @@ fn every_permutation_is_in_the_table_once() {
 
 #[test]
 fn every_pass_file_is_built() {
-    let Ok(folder) = std::fs::read_dir(shaders_glsl().join("pass")) else {
-        assert!(table::ALL.is_empty());
-        return;
-    };
+    let folder = std::fs::read_dir(shaders_glsl().join("pass")).unwrap();
+    assert!(!table::ALL.is_empty());
     for entry in folder {
         let file = entry.unwrap().file_name().into_string().unwrap();
         let is_built = table::ALL.iter().any(|shader| shader.name.split('+').next() == Some(file.as_str()));

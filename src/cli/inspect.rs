@@ -7,6 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use vair::asset::Asset;
 use vair::gpu::vk;
+use vair::gpu::{format_bytes, level_size, vk};
 use vair::render::{FrameOptions, HdrFormat, Pass, PipelineSpec, Plan, Shot, TextureUse};
 use vair::scene::Scene;
 
@@ -132,16 +133,12 @@ fn format(texture: &TextureUse) -> &'static str {
     if texture.srgb { "rgba8 srgb" } else { "rgba8 data" }
 }
 
-/// All mip levels: the first one and a third more.
+/// All mip levels, down to one texel.
 fn texture_bytes(asset: &Asset, texture: &TextureUse) -> u64 {
     let image = &asset.images[texture.image];
-    let (mut width, mut height) = (u64::from(image.width.max(1)), u64::from(image.height.max(1)));
-    let mut bytes = width * height * 4;
-    while width > 1 || height > 1 {
-        (width, height) = ((width / 2).max(1), (height / 2).max(1));
-        bytes += width * height * 4;
-    }
-    bytes
+    let size = [image.width, image.height].map(|side| side.max(1));
+    let levels = 32 - size[0].max(size[1]).leading_zeros();
+    (0..levels).filter_map(|level| format_bytes(vk::Format::R8G8B8A8_UNORM, level_size(size, level))).sum()
 }
 
 /// Colour and depth at every sample, the resolved colour, and the picture.

@@ -5,6 +5,7 @@ use clap::{Arg, Command};
 use glam::Vec3;
 use std::ffi::OsStr;
 use std::path::PathBuf;
+use vair::math::linear_from_srgb;
 use vair::render::{Background, MAX_LAYERS, PictureFormat, RenderError};
 
 /// Shells a coat.
@@ -60,9 +61,7 @@ pub fn background(text: &str) -> Result<Background, String> {
             if color.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
                 return Err("each of R,G,B must lie in [0, 1]".to_owned());
             }
-            let linear =
-                |coded: f32| if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) };
-            Ok(Background::Color(Vec3::from_array(color.map(linear))))
+            Ok(Background::Color(Vec3::from_array(color.map(linear_from_srgb))))
         }
     }
 }

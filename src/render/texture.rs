@@ -1,6 +1,7 @@
 //! Images for the device: mip levels by box filter, in linear light for colour.
 
 use crate::asset;
+use crate::math::{linear_from_srgb, srgb_from_linear};
 use std::sync::LazyLock;
 
 /// All mip levels of an image, 8-bit RGBA, the largest first. Colour is averaged in linear light, data as it is.
@@ -35,7 +36,7 @@ fn halve(source: &[u8], width: usize, height: usize, srgb: bool) -> Vec<u8> {
                 }
             }
             for (channel, value) in sum.into_iter().enumerate() {
-                let coded = if srgb && channel < 3 { encoded(value) } else { value };
+                let coded = if srgb && channel < 3 { srgb_from_linear(value) } else { value };
                 target.push((coded * 255.0 + 0.5) as u8);
             }
         }
@@ -59,19 +60,11 @@ fn coverage(source: usize, target: usize) -> Vec<Vec<(usize, f32)>> {
         .collect()
 }
 
-/// IEC 61966-2-1, tabulated: a megapixel asks four million times.
+/// Tabulated: a megapixel asks four million times.
 fn linear(byte: u8) -> f32 {
-    static TABLE: LazyLock<[f32; 256]> = LazyLock::new(|| {
-        std::array::from_fn(|byte| {
-            let coded = byte as f32 / 255.0;
-            if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) }
-        })
-    });
+    static TABLE: LazyLock<[f32; 256]> =
+        LazyLock::new(|| std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0)));
     TABLE[usize::from(byte)]
-}
-
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

@@ -267,11 +267,12 @@ fn values_do_not_make_pipelines_and_unused_maps_are_not_loaded() {
         occlusion: 0.1,
         color_variation: 0.9,
         force_strength: 1.0,
-        comb: Vec2::ONE,
         specular: 1.0,
         roughness: 0.9,
         ..Fur::default()
     };
+    let combed = plan(Fur { comb: Vec2::X, ..Fur::default() });
+    assert_ne!(base.streams, combed.streams, "the axes of a comb are a stream of their own");
     let other = plan(other);
     assert_eq!(base.pipelines, other.pipelines);
     assert_eq!(base.streams, other.streams);

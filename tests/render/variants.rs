@@ -3,7 +3,7 @@
 use crate::deform::bent_tube;
 use crate::headless::headless;
 use crate::stage::{Stage, at, options, plain, quad};
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Material, Primitive, Topology};
 use vair::material::{Blend, Fur, Shape};
@@ -85,7 +85,10 @@ fn coats() -> Scene {
                 shape: Shape::Paraboloid,
                 ..base.clone()
             };
-            for fur in [Fur { clump: 0.5, curl: 0.5, ..base.clone() }, base, Fur { clump: 0.5, ..maps.clone() }, maps] {
+            let uncombed = Fur { comb_map: None, ..maps.clone() };
+            let locks = Fur { clump: 0.5, curl: 0.5, ..base.clone() };
+            let combed = Fur { comb: Vec2::X, ..base.clone() };
+            for fur in [locks, combed, base, Fur { clump: 0.5, ..maps.clone() }, uncombed, maps] {
                 let material = stage.material(plain());
                 stage.object(colored(has_color), material, at(Vec3::ZERO));
                 coats.push((material, fur));
