@@ -65,6 +65,12 @@ impl Context {
 
     /// Counts bytes against the limit; call before allocating them.
     pub(super) fn spend(&self, field: impl Display, bytes: u64) -> Result<(), AssetError> {
+        self.spent_bytes.set(self.check(field, bytes)?);
+        Ok(())
+    }
+
+    /// Refuses bytes that would go over the limit, for what lives only a moment. Returns the sum with all before it.
+    pub(super) fn check(&self, field: impl Display, bytes: u64) -> Result<u64, AssetError> {
         let needed_bytes = self.spent_bytes.get().saturating_add(bytes);
         if needed_bytes > self.limit_bytes {
             return Err(AssetError::Memory {
@@ -74,8 +80,7 @@ impl Context {
                 limit_bytes: self.limit_bytes,
             });
         }
-        self.spent_bytes.set(needed_bytes);
-        Ok(())
+        Ok(needed_bytes)
     }
 
     /// Bytes that may still be allocated.

@@ -221,7 +221,7 @@ fn add_missing_tangents(asset: &mut Asset, materials: &[Material]) {
         let standard = &materials[primitive.material].standard;
         let wanted = standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture);
         if let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) {
-            generate_tangents(primitive, map.uv_set as usize);
+            let _ = generate_tangents(primitive, map.uv_set as usize);
         }
     }
 }
