@@ -214,7 +214,12 @@ mod tests {
             let flat: Vec<Vec2> = std::iter::once(Vec2::ZERO).chain((0..rim).map(on_rim)).collect();
             let indices = (0..rim).flat_map(|k| [0, 1 + k as u32, 1 + ((k + 1) % rim) as u32]).collect();
             let positions = flat.iter().map(|p| p.extend(0.0)).collect();
-            primitive(positions, vec![Vec3::Z; rim + 1], flat.iter().map(|p| *p * Vec2::new(0.5, -0.5)).collect(), indices)
+            primitive(
+                positions,
+                vec![Vec3::Z; rim + 1],
+                flat.iter().map(|p| *p * Vec2::new(0.5, -0.5)).collect(),
+                indices,
+            )
         };
         let mut largest = disc(MAX_TRIANGLES_AROUND_CORNER);
         assert_eq!(generate_tangents(&mut largest, 0), Ok(()));
