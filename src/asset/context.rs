@@ -51,10 +51,6 @@ impl Context {
         }
     }
 
-    pub(super) fn file(&self) -> &str {
-        &self.file
-    }
-
     /// The file breaks the format at `field`.
     pub(super) fn error(&self, field: impl Display, problem: impl Display) -> AssetError {
         AssetError::Format { file: self.file.clone(), field: field.to_string(), problem: problem.to_string() }
@@ -112,6 +108,11 @@ impl Context {
             });
         }
         Ok(needed_bytes)
+    }
+
+    /// Bytes counted so far.
+    pub(super) fn spent_bytes(&self) -> u64 {
+        self.spent_bytes.get()
     }
 
     /// Bytes that may still be allocated.

@@ -43,19 +43,10 @@ impl Default for LoadOptions {
 /// ```
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Asset, AssetError> {
     let context = Context::new(path, options);
-    let bytes = match uri::read_file(path, options.memory_limit_bytes)? {
-        Some(bytes) => bytes,
-        None => {
-            return Err(AssetError::Memory {
-                file: context.file().to_owned(),
-                field: "file".to_owned(),
-                needed_bytes: std::fs::metadata(path).map_or(u64::MAX, |data| data.len()),
-                limit_bytes: options.memory_limit_bytes,
-            });
-        }
-    };
+    let bytes = uri::read_file(path, options.memory_limit_bytes)?;
     context.spend("file", bytes.len() as u64)?;
     let mut asset = parse(&context, &bytes)?;
+    asset.loaded_bytes = context.spent_bytes();
     asset.warnings = context.into_warnings();
     Ok(asset)
 }
@@ -124,6 +115,7 @@ fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
         animations,
         variants,
         warnings: Vec::new(),
+        loaded_bytes: 0,
     })
 }
 
