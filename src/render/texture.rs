@@ -93,14 +93,16 @@ mod tests {
     #[test]
     fn odd_sizes_keep_the_mean() {
         let rgba = [0u8, 90, 180].iter().flat_map(|&v| [v, v, v, v]).collect();
-        let levels = mip_levels(&image(3, 1, rgba), false);
+        let image = image(3, 1, rgba);
+        let levels = mip_levels(&image, false);
         assert_eq!(levels.len(), 2);
         assert_eq!(*levels[1], [90, 90, 90, 90]);
     }
 
     #[test]
     fn levels_end_at_one_texel() {
-        let levels = mip_levels(&image(8, 2, vec![7; 64]), true);
+        let image = image(8, 2, vec![7; 64]);
+        let levels = mip_levels(&image, true);
         assert_eq!(levels.iter().map(|level| level.len()).collect::<Vec<_>>(), [64, 16, 8, 4]);
         assert!(levels.iter().all(|level| level.iter().all(|&byte| byte == 7)));
     }
