@@ -2,9 +2,25 @@
 
 use super::{AssetError, LoadOptions};
 use std::cell::{Cell, RefCell};
-use std::collections::HashSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
+
+/// More oddities than this are only counted: nobody reads them, and a small file can have millions.
+const MAX_WARNINGS: usize = 200;
+
+/// Bytes of a warning that are kept; a file's own words may be of any length.
+const MAX_WARNING_BYTES: usize = 500;
+
+/// Cuts a text to `max_bytes` at most, at a character's boundary. Returns whether something was lost.
+pub(super) fn shorten(text: &mut String, max_bytes: usize) -> bool {
+    let is_long = text.len() > max_bytes;
+    if is_long {
+        let end = (0..=max_bytes).rev().find(|end| text.is_char_boundary(*end));
+        text.truncate(end.unwrap_or(0));
+        text.shrink_to_fit();
+    }
+    is_long
+}
 
 /// Shared by reference; the cells let steps that borrow from one another still count and warn.
 pub(super) struct Context {
@@ -14,7 +30,8 @@ pub(super) struct Context {
     limit_bytes: u64,
     spent_bytes: Cell<u64>,
     warnings: RefCell<Vec<String>>,
-    seen: RefCell<HashSet<String>>,
+    /// Those beyond [`MAX_WARNINGS`].
+    untold_warnings: Cell<u64>,
 }
 
 impl Context {
@@ -30,12 +47,8 @@ impl Context {
             limit_bytes: options.memory_limit_bytes,
             spent_bytes: Cell::new(0),
             warnings: RefCell::default(),
-            seen: RefCell::default(),
+            untold_warnings: Cell::new(0),
         }
-    }
-
-    pub(super) fn file(&self) -> &str {
-        &self.file
     }
 
     /// The file breaks the format at `field`.
@@ -53,18 +66,38 @@ impl Context {
 
     /// Notes an oddity; the same line is kept once.
     pub(super) fn warn(&self, field: impl Display, problem: impl Display) {
-        let line = format!("{field}: {problem}");
-        if self.seen.borrow_mut().insert(line.clone()) {
-            self.warnings.borrow_mut().push(line);
+        let mut warnings = self.warnings.borrow_mut();
+        if warnings.len() == MAX_WARNINGS {
+            self.untold_warnings.set(self.untold_warnings.get() + 1);
+            return;
+        }
+        let mut line = format!("{field}: {problem}");
+        if shorten(&mut line, MAX_WARNING_BYTES) {
+            line.push_str("...");
+        }
+        if !warnings.contains(&line) {
+            warnings.push(line);
         }
     }
 
+    /// All warnings; the last one counts those that are not kept.
     pub(super) fn into_warnings(self) -> Vec<String> {
-        self.warnings.into_inner()
+        let mut warnings = self.warnings.into_inner();
+        match self.untold_warnings.get() {
+            0 => {}
+            more => warnings.push(format!("and {more} more")),
+        }
+        warnings
     }
 
     /// Counts bytes against the limit; call before allocating them.
     pub(super) fn spend(&self, field: impl Display, bytes: u64) -> Result<(), AssetError> {
+        self.spent_bytes.set(self.check(field, bytes)?);
+        Ok(())
+    }
+
+    /// Refuses bytes that would go over the limit, for what lives only a moment. Returns the sum with all before it.
+    pub(super) fn check(&self, field: impl Display, bytes: u64) -> Result<u64, AssetError> {
         let needed_bytes = self.spent_bytes.get().saturating_add(bytes);
         if needed_bytes > self.limit_bytes {
             return Err(AssetError::Memory {
@@ -74,8 +107,12 @@ impl Context {
                 limit_bytes: self.limit_bytes,
             });
         }
-        self.spent_bytes.set(needed_bytes);
-        Ok(())
+        Ok(needed_bytes)
+    }
+
+    /// Bytes counted so far.
+    pub(super) fn spent_bytes(&self) -> u64 {
+        self.spent_bytes.get()
     }
 
     /// Bytes that may still be allocated.

@@ -5,6 +5,7 @@
 //! are not used because its validation panics on some files and drops optional fields of others.
 //! Fields keep glTF's names; their meaning is that of the specification.
 
+use super::context::{Context, shorten};
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -58,6 +59,31 @@ pub(super) struct Document {
     pub(super) animations: Vec<Animation>,
     #[serde(default)]
     pub(super) extensions: DocumentExtensions,
+}
+
+/// Bytes of a name that are kept. Names are copied into messages, labels and lists; a longer one tells no more.
+const MAX_NAME_BYTES: usize = 256;
+
+impl Document {
+    /// Cuts names longer than [`MAX_NAME_BYTES`], with a warning for each list.
+    pub(super) fn shorten_names(&mut self, context: &Context) {
+        fn cut<'a>(context: &Context, list: &str, names: impl Iterator<Item = &'a mut String>) {
+            let long = names.filter_map(|name| shorten(name, MAX_NAME_BYTES).then_some(())).count();
+            if long > 0 {
+                context.warn(list, format_args!("{long} names are longer than {MAX_NAME_BYTES} bytes; they are cut"));
+            }
+        }
+        cut(context, "scenes", self.scenes.iter_mut().filter_map(|scene| scene.name.as_mut()));
+        cut(context, "nodes", self.nodes.iter_mut().filter_map(|node| node.name.as_mut()));
+        cut(context, "meshes", self.meshes.iter_mut().filter_map(|mesh| mesh.name.as_mut()));
+        cut(context, "materials", self.materials.iter_mut().filter_map(|material| material.name.as_mut()));
+        cut(context, "images", self.images.iter_mut().filter_map(|image| image.name.as_mut()));
+        cut(context, "cameras", self.cameras.iter_mut().filter_map(|camera| camera.name.as_mut()));
+        cut(context, "animations", self.animations.iter_mut().filter_map(|animation| animation.name.as_mut()));
+        let DocumentExtensions { lights, variants } = &mut self.extensions;
+        cut(context, "lights", lights.lights.iter_mut().filter_map(|light| light.name.as_mut()));
+        cut(context, "variants", variants.variants.iter_mut().map(|variant| &mut variant.name));
+    }
 }
 
 #[derive(Deserialize, Default)]

@@ -2,9 +2,11 @@
 
 use super::accessor::Accessors;
 use super::context::Context;
-use super::document::{Document, Version};
+use super::document::{self, Document, Version};
 use super::mesh::Meshes;
-use super::{Asset, AssetError, animation, camera, container, extension, light, material, node, skin, texture, uri};
+use super::{
+    Asset, AssetError, Material, animation, camera, container, extension, light, material, node, skin, texture, uri,
+};
 use std::path::Path;
 
 /// Default of [`LoadOptions::memory_limit_bytes`]: 4 GiB.
@@ -41,21 +43,38 @@ impl Default for LoadOptions {
 /// ```
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Asset, AssetError> {
     let context = Context::new(path, options);
-    let bytes = match uri::read_file(path, options.memory_limit_bytes)? {
-        Some(bytes) => bytes,
-        None => {
-            return Err(AssetError::Memory {
-                file: context.file().to_owned(),
-                field: "file".to_owned(),
-                needed_bytes: std::fs::metadata(path).map_or(u64::MAX, |data| data.len()),
-                limit_bytes: options.memory_limit_bytes,
-            });
-        }
-    };
+    let bytes = uri::read_file(path, options.memory_limit_bytes)?;
     context.spend("file", bytes.len() as u64)?;
     let mut asset = parse(&context, &bytes)?;
+    asset.loaded_bytes = context.spent_bytes();
     asset.warnings = context.into_warnings();
     Ok(asset)
+}
+
+/// What an object costs at most, as the document has it (a growing list holds up to two of each) and as the asset does:
+/// that of a material, the largest.
+const OBJECT_BYTES: u64 = 2 * size_of::<document::Material>() as u64 + size_of::<Material>() as u64;
+
+/// What any other value costs at most, wherever it ends up: a joint with its matrix, a key and value of `extras`, which
+/// are kept twice.
+const VALUE_BYTES: u64 = 128;
+
+/// Bytes that a JSON text may become, counted before it becomes them: a few characters make a whole material.
+fn json_bytes(json: &[u8]) -> u64 {
+    let (mut objects, mut values) = (0u64, 0u64);
+    let (mut in_string, mut escaped) = (false, false);
+    for byte in json {
+        match (in_string, byte) {
+            (true, _) if escaped => escaped = false,
+            (true, b'\\') => escaped = true,
+            (_, b'"') => in_string = !in_string,
+            (false, b'{') => objects += 1,
+            (false, b'[' | b',' | b':') => values += 1,
+            _ => {}
+        }
+    }
+    // The strings are copied once.
+    json.len() as u64 + objects * OBJECT_BYTES + values * VALUE_BYTES
 }
 
 fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
@@ -67,7 +86,9 @@ fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
             return Err(context.error("asset.version", format_args!("{text} is not read; convert the file to 2.0")));
         }
     }
-    let document: Document = serde_json::from_slice(container.json).map_err(broken)?;
+    context.spend("JSON", json_bytes(container.json))?;
+    let mut document: Document = serde_json::from_slice(container.json).map_err(broken)?;
+    document.shorten_names(context);
     extension::check(context, &document)?;
 
     let nodes = node::read(context, &document)?;
@@ -94,5 +115,32 @@ fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
         animations,
         variants,
         warnings: Vec::new(),
+        loaded_bytes: 0,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asset::{Camera, Channel, Node, Primitive};
+
+    #[test]
+    fn no_object_costs_more_than_is_charged() {
+        let cost = |in_document: usize, in_asset: usize| (2 * in_document + in_asset) as u64;
+        for bytes in [
+            cost(size_of::<document::Node>(), size_of::<Node>()),
+            cost(size_of::<document::Primitive>(), size_of::<Primitive>()),
+            cost(size_of::<document::Channel>(), size_of::<Channel>()),
+            cost(size_of::<document::Camera>(), size_of::<Camera>()),
+            cost(size_of::<document::Accessor>(), 0),
+        ] {
+            assert!(bytes <= OBJECT_BYTES, "{bytes} over {OBJECT_BYTES}");
+        }
+    }
+
+    #[test]
+    fn text_counts_values_and_skips_strings() {
+        assert_eq!(json_bytes(b"\"{,\\\"{:\""), 9);
+        assert_eq!(json_bytes(b"[{},{}]"), 7 + 2 * OBJECT_BYTES + 2 * VALUE_BYTES);
+    }
 }

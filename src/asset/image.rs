@@ -41,10 +41,9 @@ pub(super) fn decode(context: &Context, field: &str, bytes: &[u8], name: &str) -
     }
     let rgba_bytes = u64::from(width) * u64::from(height) * 4;
     // The decoder's own pixels live until the conversion is done.
-    if decoder.total_bytes().saturating_add(rgba_bytes) > context.left_bytes() {
-        context.spend(field, decoder.total_bytes().saturating_add(rgba_bytes))?;
-    }
-    context.spend(field, rgba_bytes)?;
+    context.check(field, decoder.total_bytes().saturating_add(rgba_bytes))?;
+    // The smaller levels that the device gets are a third as much.
+    context.spend(field, rgba_bytes + rgba_bytes / 3)?;
     let rgba = DynamicImage::from_decoder(decoder).map_err(broken)?.into_rgba8().into_raw();
     Ok(Image { name: name.to_owned(), width, height, rgba })
 }

@@ -283,11 +283,11 @@ impl Meshes<'_> {
             return Ok(());
         }
         let Some(normal_map) = normal_maps.next() else { return Ok(()) };
-        let bytes = normal::vertex_bytes(primitive) + size_of::<Vec4>() as u64;
-        self.context.spend(field, bytes.saturating_mul(primitive.indices.len() as u64))?;
-        if !tangent::generate_tangents(primitive, normal_map.uv_set as usize) {
-            let problem = format!("has no TEXCOORD_{} for its normal map, so no tangents", normal_map.uv_set);
-            self.context.warn(field, problem);
+        let (kept_bytes, scratch_bytes) = tangent::tangent_bytes(primitive);
+        self.context.spend(field, kept_bytes)?;
+        self.context.check(field, scratch_bytes)?;
+        if let Err(reason) = tangent::generate_tangents(primitive, normal_map.uv_set as usize) {
+            self.context.warn(field, reason);
         }
         Ok(())
     }

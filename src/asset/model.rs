@@ -36,6 +36,8 @@ pub struct Asset {
     pub variants: Vec<String>,
     /// Non-fatal oddities, one line each: what, where, what was done instead.
     pub warnings: Vec<String>,
+    /// What counts against [`super::LoadOptions::memory_limit_bytes`] so far; 0 for data made in memory.
+    pub loaded_bytes: u64,
 }
 
 /// One scene: its root nodes.

@@ -6,6 +6,10 @@ use super::{AssetError, MorphTarget};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
+/// Bytes of a vertex and target on the device: offsets of position, normal, tangent and shell direction, kept for
+/// targets that move nothing, too, because weights go by a target's place in the list.
+pub(super) const DELTA_BYTES: u64 = 4 * size_of::<Vec3>() as u64;
+
 /// The targets of one primitive, padded with empty ones to `target_count`.
 ///
 /// # Errors
@@ -18,7 +22,8 @@ pub(super) fn read(
     vertex_count: usize,
     target_count: usize,
 ) -> Result<Vec<MorphTarget>, AssetError> {
-    context.spend(field, target_count as u64 * size_of::<MorphTarget>() as u64)?;
+    let bytes = DELTA_BYTES.saturating_mul(vertex_count as u64).saturating_add(size_of::<MorphTarget>() as u64);
+    context.spend(format_args!("{field}.targets"), bytes.saturating_mul(target_count as u64))?;
     let mut read = Vec::with_capacity(target_count);
     for (t, attributes) in targets.iter().enumerate() {
         let mut target = MorphTarget::default();

@@ -1,5 +1,6 @@
 //! Normals: made unit, made flat where the file has none.
 
+use super::morph::DELTA_BYTES;
 use super::{MorphTarget, Primitive, Vertices};
 use glam::{DVec3, Vec3};
 
@@ -102,7 +103,7 @@ pub(super) fn vertex_bytes(primitive: &Primitive) -> u64 {
         bytes += size_of_val(&target.positions[..]) + size_of_val(&target.normals[..]);
         bytes += size_of_val(&target.tangents[..]);
     }
-    bytes.div_ceil(positions.len().max(1)) as u64
+    bytes.div_ceil(positions.len().max(1)) as u64 + DELTA_BYTES * primitive.morph_targets.len() as u64
 }
 
 #[cfg(test)]

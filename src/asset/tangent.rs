@@ -1,10 +1,36 @@
 //! Tangents: checked where the file has them, generated where a normal map needs them.
 
-use super::normal::{reorder, unit};
+use super::normal::{reorder, unit, vertex_bytes};
 use super::{Primitive, Topology};
 use bevy_mikktspace::{Geometry, TangentSpace};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
+
+/// Most triangles around one corner. MikkTSpace recurses from each triangle to the next around it and compares each
+/// with each, so more would cost stack and time without end; a sphere of as many segments stays below.
+pub const MAX_TRIANGLES_AROUND_CORNER: usize = 4096;
+
+/// What MikkTSpace keeps of an index while it works: triangles, groups and tangent spaces.
+const SCRATCH_BYTES_PER_INDEX: u64 = 128;
+
+/// Why a primitive gets no tangents; it is shown without what needs them.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NoTangents {
+    /// Tangents follow the directions of a picture on triangles.
+    #[error("has no triangles, no normals or no TEXCOORD_{uv_set} for its normal map, so no tangents")]
+    Missing {
+        /// The UV set that was asked for.
+        uv_set: usize,
+    },
+    /// Over [`MAX_TRIANGLES_AROUND_CORNER`].
+    #[error(
+        "has {triangles} triangles around one corner, over {MAX_TRIANGLES_AROUND_CORNER}, so no tangents; split them, or export tangents"
+    )]
+    Crowded {
+        /// The most around any corner.
+        triangles: usize,
+    },
+}
 
 /// Some unit vector perpendicular to the unit `normal`.
 fn perpendicular(normal: Vec3) -> Vec3 {
@@ -83,15 +109,18 @@ fn scale_to_unit(numbers: impl Iterator<Item = f32>) -> f32 {
 
 /// Replaces the tangents of a triangle list by those of `uv_set` (Mikkelsen 2008, "Simulation of
 /// Wrinkled Surfaces Revisited"; MikkTSpace, as glTF 2.0 section 3.7.2.1 asks). A vertex is split
-/// only where its triangles disagree, so the index list stays useful. Returns false, and changes
-/// nothing, where that needs something the primitive lacks: triangles, normals, the UV set.
-pub fn generate_tangents(primitive: &mut Primitive, uv_set: usize) -> bool {
+/// only where its triangles disagree, so the index list stays useful.
+///
+/// # Errors
+/// [`NoTangents`]; the primitive is unchanged.
+pub fn generate_tangents(primitive: &mut Primitive, uv_set: usize) -> Result<(), NoTangents> {
+    let missing = NoTangents::Missing { uv_set };
     let vertices = &primitive.vertices;
     let count = vertices.positions.len();
-    let Some(uvs) = vertices.uv_sets.get(uv_set).filter(|uvs| uvs.len() == count) else { return false };
+    let Some(uvs) = vertices.uv_sets.get(uv_set).filter(|uvs| uvs.len() == count) else { return Err(missing) };
     let in_range = primitive.indices.iter().all(|&i| (i as usize) < count);
     if primitive.topology != Topology::Triangles || vertices.normals.len() != count || !in_range {
-        return false;
+        return Err(missing);
     }
     let mut corners = Corners {
         primitive,
@@ -100,8 +129,12 @@ pub fn generate_tangents(primitive: &mut Primitive, uv_set: usize) -> bool {
         uv_scale: scale_to_unit(uvs.iter().flat_map(|uv| uv.to_array())),
         tangents: vec![Vec4::new(1.0, 0.0, 0.0, 1.0); primitive.indices.len()],
     };
+    let triangles = most_triangles_around_corner(&corners);
+    if triangles > MAX_TRIANGLES_AROUND_CORNER {
+        return Err(NoTangents::Crowded { triangles });
+    }
     if bevy_mikktspace::generate_tangents(&mut corners).is_err() {
-        return false;
+        return Err(missing);
     }
     let of_corner = corners.tangents;
 
@@ -120,7 +153,33 @@ pub fn generate_tangents(primitive: &mut Primitive, uv_set: usize) -> bool {
     reorder(primitive, &order);
     primitive.indices = indices;
     primitive.vertices.tangents = tangents;
-    true
+    Ok(())
+}
+
+/// Bytes that [`generate_tangents`] adds to a primitive at most, and those that it works in besides.
+pub fn tangent_bytes(primitive: &Primitive) -> (u64, u64) {
+    let indices = primitive.indices.len() as u64;
+    let kept = (vertex_bytes(primitive) + size_of::<Vec4>() as u64).saturating_mul(indices);
+    (kept, SCRATCH_BYTES_PER_INDEX.saturating_mul(indices))
+}
+
+/// The most triangles that share a corner: its position, normal and UV, which MikkTSpace welds by. Triangles with two
+/// corners in one place belong to no group.
+fn most_triangles_around_corner(corners: &Corners) -> usize {
+    // Zero has two signs.
+    let bits = |numbers: [f32; 3]| numbers.map(|number| (number + 0.0).to_bits());
+    let mut around: HashMap<([u32; 3], [u32; 3], [u32; 2]), usize> = HashMap::new();
+    for face in 0..corners.num_faces() {
+        let places = [0, 1, 2].map(|corner| bits(corners.position(face, corner)));
+        if places[0] == places[1] || places[1] == places[2] || places[2] == places[0] {
+            continue;
+        }
+        for (corner, place) in places.into_iter().enumerate() {
+            let uv = corners.tex_coord(face, corner).map(|number| (number + 0.0).to_bits());
+            *around.entry((place, bits(corners.normal(face, corner)), uv)).or_default() += 1;
+        }
+    }
+    around.into_values().max().unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -140,10 +199,34 @@ mod tests {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
         let uvs = vec![Vec2::new(0.0, 1.0), Vec2::ONE, Vec2::new(1.0, 0.0), Vec2::ZERO];
         let mut quad = primitive(positions, vec![Vec3::Z; 4], uvs, vec![0, 1, 2, 0, 2, 3]);
-        assert!(generate_tangents(&mut quad, 0));
+        assert_eq!(generate_tangents(&mut quad, 0), Ok(()));
         assert_eq!(quad.vertices.tangents, vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4]);
         assert_eq!((quad.indices.as_slice(), quad.vertices.positions.len()), (&[0, 1, 2, 0, 2, 3][..], 4));
-        assert!(!generate_tangents(&mut quad, 1));
+        assert_eq!(generate_tangents(&mut quad, 1), Err(NoTangents::Missing { uv_set: 1 }));
+    }
+
+    /// Recursion runs around a corner: the most that is let through must fit a thread's stack, and more must not try.
+    #[test]
+    fn a_crowded_corner_gets_no_tangents() {
+        let disc = |rim: usize| {
+            let angle = |k: usize| k as f32 / rim as f32 * std::f32::consts::TAU;
+            let on_rim = |k: usize| Vec2::from_angle(angle(k));
+            let flat: Vec<Vec2> = std::iter::once(Vec2::ZERO).chain((0..rim).map(on_rim)).collect();
+            let indices = (0..rim).flat_map(|k| [0, 1 + k as u32, 1 + ((k + 1) % rim) as u32]).collect();
+            let positions = flat.iter().map(|p| p.extend(0.0)).collect();
+            primitive(
+                positions,
+                vec![Vec3::Z; rim + 1],
+                flat.iter().map(|p| *p * Vec2::new(0.5, -0.5)).collect(),
+                indices,
+            )
+        };
+        let mut largest = disc(MAX_TRIANGLES_AROUND_CORNER);
+        assert_eq!(generate_tangents(&mut largest, 0), Ok(()));
+        assert!((largest.vertices.tangents[0] - Vec4::new(1.0, 0.0, 0.0, 1.0)).length() < 1e-3);
+        let mut crowded = disc(300_000);
+        assert_eq!(generate_tangents(&mut crowded, 0), Err(NoTangents::Crowded { triangles: 300_000 }));
+        assert!(crowded.vertices.tangents.is_empty());
     }
 
     #[test]
@@ -151,7 +234,7 @@ mod tests {
         let positions = vec![Vec3::NEG_X, Vec3::ZERO, Vec3::Y, Vec3::X];
         let uvs = vec![Vec2::new(1.0, 1.0), Vec2::new(0.0, 1.0), Vec2::ZERO, Vec2::new(1.0, 1.0)];
         let mut pair = primitive(positions, vec![Vec3::Z; 4], uvs, vec![0, 1, 2, 1, 3, 2]);
-        assert!(generate_tangents(&mut pair, 0));
+        assert_eq!(generate_tangents(&mut pair, 0), Ok(()));
         assert_eq!(pair.vertices.positions.len(), 6);
         assert_eq!(pair.vertices.tangents[pair.indices[0] as usize], Vec4::new(-1.0, 0.0, 0.0, -1.0));
         assert_eq!(pair.vertices.tangents[pair.indices[3] as usize], Vec4::new(1.0, 0.0, 0.0, 1.0));
@@ -174,7 +257,7 @@ mod tests {
             let count = indices.len() / 3 * 3;
             let indices: Vec<u32> = indices[..count].iter().map(|i| (i % grid.len()) as u32).collect();
             let mut made = primitive(positions, normals, uvs, indices);
-            prop_assert!(generate_tangents(&mut made, 0));
+            prop_assert_eq!(generate_tangents(&mut made, 0), Ok(()));
             for tangent in &made.vertices.tangents {
                 prop_assert!((tangent.truncate().length() - 1.0).abs() < 1e-5, "{}", tangent);
                 prop_assert!(tangent.w.abs() == 1.0);

@@ -6,6 +6,7 @@ use super::{AssetError, LoadOptions};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD_PAD_INDIFFERENT;
 use percent_encoding::{percent_decode, percent_decode_str};
+use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
@@ -32,24 +33,71 @@ fn locate(folder: &Path, relative: &str, allow_outside: bool) -> Result<PathBuf,
     if path.starts_with(&root) { Ok(path) } else { Err(Miss::Outside) }
 }
 
-/// Bytes of a plain file of at most `limit_bytes`; `None` when it is larger.
-pub(super) fn read_file(path: &Path, limit_bytes: u64) -> Result<Option<Vec<u8>>, AssetError> {
-    let io = |source| AssetError::Io { path: path.to_path_buf(), source };
-    // Asked before opening: opening a pipe would wait for its writer.
-    let kind = std::fs::metadata(path).map_err(io)?;
-    if kind.is_dir() {
-        return Err(io(std::io::Error::new(std::io::ErrorKind::IsADirectory, "it is a folder, not a file")));
+/// Whether a link at the end of a path is followed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Links {
+    Follow,
+    /// For a path that was already followed to its end: what is a link there now has been put there since.
+    Refuse,
+}
+
+/// Opens without waiting: opening a pipe would wait for its writer. What it opened, its metadata tells.
+#[cfg(target_os = "linux")]
+fn open(path: &Path, links: Links) -> std::io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+    // Of fcntl.h; these two differ between processors, others agree on all that Vulkan runs on.
+    const O_NONBLOCK: i32 = 0o4000;
+    #[cfg(any(target_arch = "aarch64", target_arch = "arm"))]
+    const O_NOFOLLOW: i32 = 0o100_000;
+    #[cfg(not(any(target_arch = "aarch64", target_arch = "arm")))]
+    const O_NOFOLLOW: i32 = 0o400_000;
+    let flags = if links == Links::Refuse { O_NONBLOCK | O_NOFOLLOW } else { O_NONBLOCK };
+    std::fs::OpenOptions::new().read(true).custom_flags(flags).open(path)
+}
+
+/// Elsewhere a pipe can only be asked for by its path, before opening.
+#[cfg(not(target_os = "linux"))]
+fn open(path: &Path, links: Links) -> std::io::Result<File> {
+    let kind = if links == Links::Refuse { std::fs::symlink_metadata(path) } else { std::fs::metadata(path) }?;
+    if kind.is_file() { File::open(path) } else { Err(not_plain(kind.is_dir())) }
+}
+
+fn not_plain(is_folder: bool) -> std::io::Error {
+    if is_folder {
+        std::io::Error::new(std::io::ErrorKind::IsADirectory, "it is a folder, not a file")
+    } else {
+        std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a plain file")
     }
+}
+
+/// Bytes of a plain file, or its size where that is over the limit. What was opened is what is asked.
+fn read_opened(path: &Path, limit_bytes: u64, links: Links) -> Result<Result<Vec<u8>, u64>, AssetError> {
+    let io = |source| AssetError::Io { path: path.to_path_buf(), source };
+    let file = open(path, links).map_err(io)?;
+    let kind = file.metadata().map_err(io)?;
     if !kind.is_file() {
-        return Err(io(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a plain file")));
+        return Err(io(not_plain(kind.is_dir())));
+    }
+    if kind.len() > limit_bytes {
+        return Ok(Err(kind.len()));
     }
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(io)?;
-    if file.metadata().map_err(io)?.len() > limit_bytes {
-        return Ok(None);
-    }
+    // It may grow while it is read.
     file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
-    Ok((bytes.len() as u64 <= limit_bytes).then_some(bytes))
+    let read_bytes = bytes.len() as u64;
+    Ok(if read_bytes > limit_bytes { Err(read_bytes) } else { Ok(bytes) })
+}
+
+fn too_large(path: &Path, needed_bytes: u64, limit_bytes: u64) -> AssetError {
+    AssetError::Memory { file: path.display().to_string(), field: "file".to_owned(), needed_bytes, limit_bytes }
+}
+
+/// Reads a plain file that the user named; pipes, devices and folders are refused without waiting for them.
+///
+/// # Errors
+/// [`AssetError::Memory`] when it is larger than `limit_bytes`; [`AssetError::Io`] when it cannot be read.
+pub fn read_file(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, AssetError> {
+    read_opened(path, limit_bytes, Links::Follow)?.map_err(|needed_bytes| too_large(path, needed_bytes, limit_bytes))
 }
 
 /// Reads `relative` (a plain path, not percent-encoded) inside `folder`.
@@ -72,12 +120,13 @@ pub fn read_inside(folder: &Path, relative: &str, options: &LoadOptions) -> Resu
         }
     };
     let limit_bytes = options.memory_limit_bytes;
-    read_file(&path, limit_bytes)?.ok_or_else(|| AssetError::Memory {
-        file: path.display().to_string(),
-        field: "file".to_owned(),
-        needed_bytes: std::fs::metadata(&path).map_or(u64::MAX, |data| data.len()),
-        limit_bytes,
-    })
+    read_opened(&path, limit_bytes, links_of(options.allow_outside))?
+        .map_err(|needed_bytes| too_large(&path, needed_bytes, limit_bytes))
+}
+
+/// What [`locate`] has followed to its end, is followed no further.
+fn links_of(allow_outside: bool) -> Links {
+    if allow_outside { Links::Follow } else { Links::Refuse }
 }
 
 /// Bytes behind a glTF `uri`: a data URI or a percent-encoded relative path.
@@ -100,20 +149,15 @@ pub(super) fn read(context: &Context, field: &str, uri: &str) -> Result<Vec<u8>,
             return Err(context.error(field, problem));
         }
     };
-    match read_file(&path, context.left_bytes())? {
-        Some(bytes) => {
+    match read_opened(&path, context.left_bytes(), links_of(context.allow_outside))? {
+        Ok(bytes) => {
             context.spend(field, bytes.len() as u64)?;
             Ok(bytes)
         }
-        // One byte over is what is known to be too much.
-        None => Err(over_limit(context, field)),
-    }
-}
-
-fn over_limit(context: &Context, field: &str) -> AssetError {
-    match context.spend(field, context.left_bytes().saturating_add(1)) {
-        Err(error) => error,
-        Ok(()) => context.error(field, "is larger than any memory"),
+        Err(bytes) => {
+            context.check(field, bytes)?;
+            Err(context.error(field, "is larger than any memory"))
+        }
     }
 }
 
@@ -196,6 +240,13 @@ mod tests {
         {
             std::os::unix::fs::symlink(outer.path().join("secret"), folder.join("link")).unwrap();
             assert!(matches!(read_inside(&folder, "link", &closed), Err(AssetError::Outside { .. })));
+            // A link that comes between the check and the opening.
+            assert!(read_opened(&folder.join("link"), 9, Links::Refuse).is_err());
+            assert_eq!(read_file(&folder.join("link"), 9).unwrap(), b"s");
+            let pipe = folder.join("pipe");
+            assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+            assert!(read_file(&pipe, 9).unwrap_err().to_string().contains("not a plain file"));
+            assert!(read_inside(&folder, "pipe", &closed).is_err());
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Vertex streams, index lists and deform sources as bytes for the device.
 
 use super::stream::Stream;
-use crate::asset::{Mesh, Primitive};
+use crate::asset::{Mesh, Primitive, Vertices};
 use crate::scene::shell_directions_of_mesh;
 use glam::Vec3;
+use std::borrow::Cow;
 
 /// The bytes of a stream of one primitive of `mesh`, tightly packed, in vertex order.
 pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
@@ -33,34 +34,85 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
 pub fn morph_delta_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
     let source = &mesh.primitives[primitive];
     let count = source.vertices.positions.len();
-    let mut deltas: Vec<Vec3> = Vec::with_capacity(count * source.morph_targets.len());
-    for target in 0..source.morph_targets.len() {
-        let offsets = match stream {
-            Stream::Position => source.morph_targets[target].positions.clone(),
-            Stream::Normal => source.morph_targets[target].normals.clone(),
-            Stream::Tangent => source.morph_targets[target].tangents.clone(),
-            Stream::ShellDirection => shell_direction_deltas(mesh, primitive, target),
-            // A morph turns the side little, and the shader keeps it across the morphed direction.
-            Stream::ShellSide | Stream::Uv0 | Stream::Uv1 | Stream::Color => Vec::new(),
-        };
-        deltas.extend((0..count).map(|vertex| offsets.get(vertex).copied().unwrap_or(Vec3::ZERO)));
+    let mut deltas = vec![0; count * source.morph_targets.len() * size_of::<Vec3>()];
+    if deltas.is_empty() {
+        return deltas;
     }
-    bytemuck::cast_slice(&deltas).to_vec()
+    let directions = (stream == Stream::ShellDirection).then(|| ShellDirections::new(mesh, primitive));
+    for ((index, target), into) in
+        source.morph_targets.iter().enumerate().zip(deltas.chunks_exact_mut(count * size_of::<Vec3>()))
+    {
+        let offsets = match (stream, &directions) {
+            (Stream::Position, _) => Cow::Borrowed(&target.positions[..]),
+            (Stream::Normal, _) => Cow::Borrowed(&target.normals[..]),
+            (Stream::Tangent, _) => Cow::Borrowed(&target.tangents[..]),
+            (_, Some(directions)) => Cow::Owned(directions.deltas(index)),
+            // A morph turns the comb's axis little, and the shader keeps it across the morphed direction.
+            _ => Cow::Borrowed(&[][..]),
+        };
+        if !offsets.is_empty() {
+            into.copy_from_slice(bytemuck::cast_slice(&offsets));
+        }
+    }
+    deltas
 }
 
 /// Shell directions follow the fully morphed shape: files carry normals, not these.
-fn shell_direction_deltas(mesh: &Mesh, primitive: usize, target: usize) -> Vec<Vec3> {
-    let mut morphed = mesh.clone();
-    for primitive in &mut morphed.primitives {
-        move_to_target(primitive, target);
-    }
-    let (from, to) = (shell_directions_of_mesh(mesh), shell_directions_of_mesh(&morphed));
-    from[primitive].iter().zip(&to[primitive]).map(|(from, to)| *to - *from).collect()
+struct ShellDirections<'a> {
+    mesh: &'a Mesh,
+    primitive: usize,
+    at_rest: Vec<Vec3>,
 }
 
-fn move_to_target(primitive: &mut Primitive, target: usize) {
-    let Some(offsets) = primitive.morph_targets.get(target) else { return };
-    for (position, offset) in primitive.vertices.positions.iter_mut().zip(&offsets.positions) {
-        *position += *offset;
+impl<'a> ShellDirections<'a> {
+    fn new(mesh: &'a Mesh, primitive: usize) -> Self {
+        Self { mesh, primitive, at_rest: shell_directions_of_mesh(mesh).swap_remove(primitive) }
+    }
+
+    /// What a target adds to them; empty where it moves no position of the mesh.
+    fn deltas(&self, target: usize) -> Vec<Vec3> {
+        let moves =
+            |primitive: &Primitive| primitive.morph_targets.get(target).is_some_and(|t| !t.positions.is_empty());
+        if !self.mesh.primitives.iter().any(moves) {
+            return Vec::new();
+        }
+        let primitives = self.mesh.primitives.iter().map(|primitive| moved_to_target(primitive, target)).collect();
+        let morphed = shell_directions_of_mesh(&Mesh { primitives, ..Mesh::default() }).swap_remove(self.primitive);
+        morphed.iter().zip(&self.at_rest).map(|(to, from)| *to - *from).collect()
+    }
+}
+
+/// What shell directions see of a primitive, at a target.
+fn moved_to_target(primitive: &Primitive, target: usize) -> Primitive {
+    let Vertices { positions, normals, .. } = &primitive.vertices;
+    let mut positions = positions.clone();
+    if let Some(offsets) = primitive.morph_targets.get(target) {
+        positions.iter_mut().zip(&offsets.positions).for_each(|(position, offset)| *position += *offset);
+    }
+    let vertices = Vertices { positions, normals: normals.clone(), ..Vertices::default() };
+    Primitive { topology: primitive.topology, indices: primitive.indices.clone(), vertices, ..Primitive::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asset::{MorphTarget, procedural};
+
+    #[test]
+    fn targets_that_move_nothing_are_zeros_in_their_place() {
+        let mut cube = procedural::cube(1.0);
+        let count = cube.vertices.positions.len();
+        let mut offsets = vec![Vec3::ZERO; count];
+        offsets[0] = Vec3::new(0.5, 0.25, 0.0);
+        let moving = MorphTarget { positions: offsets.clone(), ..MorphTarget::default() };
+        cube.morph_targets = vec![MorphTarget::default(), moving, MorphTarget::default()];
+        let mesh = Mesh { primitives: vec![cube], ..Mesh::default() };
+        let deltas = |stream| bytemuck::pod_collect_to_vec::<u8, Vec3>(&morph_delta_bytes(&mesh, 0, stream));
+        let zeros = vec![Vec3::ZERO; count];
+        assert_eq!(deltas(Stream::Position), [zeros.clone(), offsets, zeros.clone()].concat());
+        assert_eq!(deltas(Stream::Normal), zeros.repeat(3));
+        let directions = deltas(Stream::ShellDirection);
+        assert_eq!((&directions[..count], &directions[2 * count..]), (&zeros[..], &zeros[..]));
+        assert!(directions[count..2 * count].iter().any(|delta| delta.length() > 0.01));
     }
 }

@@ -13,6 +13,7 @@ use crate::gpu::{
 };
 use crate::scene::Scene;
 use ash::vk;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Index of a primitive: mesh, primitive of the mesh.
@@ -48,7 +49,8 @@ impl Resources {
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let mut upload = gpu.upload();
         let absent = filled_buffer(gpu, &mut upload, "absent stream", vk::BufferUsageFlags::VERTEX_BUFFER, &[0; 16])?;
-        let white = filled_image(gpu, &mut upload, "white", [1, 1], vk::Format::R8G8B8A8_UNORM, &[vec![255; 4]])?;
+        let white =
+            filled_image(gpu, &mut upload, "white", [1, 1], vk::Format::R8G8B8A8_UNORM, &[vec![255; 4].into()])?;
         upload.finish()?;
         let plain = asset::Sampler::default();
         let samplers = HashMap::from([(plain, gpu.sampler(&sampler_desc(&plain))?)]);
@@ -281,7 +283,7 @@ fn filled_image(
     name: &str,
     size: [u32; 2],
     format: vk::Format,
-    levels: &[Vec<u8>],
+    levels: &[Cow<[u8]>],
 ) -> Result<Image, GpuError> {
     let image = gpu.image(&ImageDesc {
         name,
@@ -291,7 +293,7 @@ fn filled_image(
         samples: 1,
         usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
     })?;
-    let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
+    let levels: Vec<&[u8]> = levels.iter().map(|level| &level[..]).collect();
     upload.image(&image, &levels);
     Ok(image)
 }

@@ -2,15 +2,16 @@
 
 use crate::asset;
 use crate::math::{linear_from_srgb, srgb_from_linear};
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
 /// All mip levels of an image, 8-bit RGBA, the largest first. Colour is averaged in linear light, data as it is.
-pub fn mip_levels(image: &asset::Image, srgb: bool) -> Vec<Vec<u8>> {
-    let mut levels = vec![image.rgba.clone()];
+pub fn mip_levels(image: &asset::Image, srgb: bool) -> Vec<Cow<'_, [u8]>> {
+    let mut levels = vec![Cow::Borrowed(&image.rgba[..])];
     let (mut width, mut height) = (image.width as usize, image.height as usize);
     while width > 1 || height > 1 {
         let next = halve(&levels[levels.len() - 1], width, height, srgb);
-        levels.push(next);
+        levels.push(Cow::Owned(next));
         width = (width / 2).max(1);
         height = (height / 2).max(1);
     }
@@ -78,22 +79,24 @@ mod tests {
     #[test]
     fn colour_is_averaged_in_linear_light_and_data_is_not() {
         let half_black = image(2, 1, vec![0, 0, 0, 255, 255, 255, 255, 255]);
-        assert_eq!(mip_levels(&half_black, true)[1], [188, 188, 188, 255]);
-        assert_eq!(mip_levels(&half_black, false)[1], [128, 128, 128, 255]);
+        assert_eq!(*mip_levels(&half_black, true)[1], [188, 188, 188, 255]);
+        assert_eq!(*mip_levels(&half_black, false)[1], [128, 128, 128, 255]);
     }
 
     #[test]
     fn odd_sizes_keep_the_mean() {
         let rgba = [0u8, 90, 180].iter().flat_map(|&v| [v, v, v, v]).collect();
-        let levels = mip_levels(&image(3, 1, rgba), false);
+        let image = image(3, 1, rgba);
+        let levels = mip_levels(&image, false);
         assert_eq!(levels.len(), 2);
-        assert_eq!(levels[1], [90, 90, 90, 90]);
+        assert_eq!(*levels[1], [90, 90, 90, 90]);
     }
 
     #[test]
     fn levels_end_at_one_texel() {
-        let levels = mip_levels(&image(8, 2, vec![7; 64]), true);
-        assert_eq!(levels.iter().map(Vec::len).collect::<Vec<_>>(), [64, 16, 8, 4]);
-        assert!(levels.iter().flatten().all(|&byte| byte == 7));
+        let image = image(8, 2, vec![7; 64]);
+        let levels = mip_levels(&image, true);
+        assert_eq!(levels.iter().map(|level| level.len()).collect::<Vec<_>>(), [64, 16, 8, 4]);
+        assert!(levels.iter().all(|level| level.iter().all(|&byte| byte == 7)));
     }
 }

@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
-use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents};
+use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents, tangent_bytes};
 use crate::material::{self, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
 use crate::scene::{Instance, instances};
@@ -53,9 +53,12 @@ impl Scene {
     pub fn load(path: impl AsRef<Path>, options: &LoadOptions) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let mut asset = asset::load(path, options)?;
-        let mut read = images_of(folder_of(path), options);
-        let materials = material::from_asset(&mut asset, &mut read)
+        let mut budget = Budget::of(&asset, path.display().to_string(), options);
+        budget.spend("materials", (asset.materials.len() * size_of::<Material>()) as u64)?;
+        let materials = material::from_asset(&mut asset, &mut images_of(folder_of(path), options, &mut budget))
             .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
+        add_missing_tangents(&mut asset, &materials, &mut budget)?;
+        asset.loaded_bytes = budget.spent_bytes;
         Ok(Self::new(asset, materials))
     }
 
@@ -73,6 +76,9 @@ impl Scene {
         let materials = material::from_asset(&mut asset, &mut |file| {
             Err(format!("{file}: a scene made in memory has no folder; use a procedural texture"))
         })?;
+        let unlimited = LoadOptions { memory_limit_bytes: u64::MAX, ..LoadOptions::default() };
+        let mut budget = Budget::of(&asset, "scene".to_owned(), &unlimited);
+        add_missing_tangents(&mut asset, &materials, &mut budget)?;
         Ok(Self::new(asset, materials))
     }
 
@@ -81,7 +87,10 @@ impl Scene {
     /// # Errors
     /// When a key, a value, a file or a material name is wrong; the error names the line.
     pub fn apply(&mut self, look: &Look, folder: &Path, options: &LoadOptions) -> Result<(), SceneError> {
-        look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options))?;
+        let mut budget = Budget::of(&self.asset, "look".to_owned(), options);
+        look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
+        add_missing_tangents(&mut self.asset, &self.materials, &mut budget)?;
+        self.asset.loaded_bytes = budget.spent_bytes;
         let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
         *self = Self::new(asset, materials);
         Ok(())
@@ -93,18 +102,9 @@ impl Scene {
     /// Those of [`Scene::apply`], and when the file cannot be read or is not text.
     pub fn apply_file(&mut self, path: impl AsRef<Path>, options: &LoadOptions) -> Result<(), SceneError> {
         let path = path.as_ref();
-        let io = |source| AssetError::Io { path: path.to_owned(), source };
-        // Asked before opening: a pipe would wait for its writer, and a device may never end.
-        let kind = std::fs::metadata(path).map_err(io)?;
-        if !kind.is_file() {
-            return Err(io(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a plain file")).into());
-        }
-        let (needed_bytes, limit_bytes) = (kind.len(), options.memory_limit_bytes.min(MAX_LOOK_BYTES));
         let file = path.display().to_string();
-        if needed_bytes > limit_bytes {
-            return Err(AssetError::Memory { file, field: "file".to_owned(), needed_bytes, limit_bytes }.into());
-        }
-        let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
+        let bytes = asset::read_file(path, options.memory_limit_bytes.min(MAX_LOOK_BYTES))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             let problem = format!("byte {at} is not UTF-8 text; save the look as UTF-8");
             SceneError::from(AssetError::Format { file: file.clone(), field: "text".to_owned(), problem })
@@ -112,8 +112,7 @@ impl Scene {
         self.apply(&Look::parse(&text, &file)?, folder_of(path), options)
     }
 
-    fn new(mut asset: Asset, materials: Vec<Material>) -> Self {
-        add_missing_tangents(&mut asset, &materials);
+    fn new(asset: Asset, materials: Vec<Material>) -> Self {
         Self { id: new_id(), asset, materials, sizes: Mutex::default(), outlines: Mutex::default() }
     }
 
@@ -208,14 +207,53 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// Reads the images that looks name, on one budget.
-fn images_of(folder: &Path, options: &LoadOptions) -> impl FnMut(&str) -> Result<Image, String> {
-    let (folder, mut left) = (folder.to_owned(), options.clone());
+/// What a load and all looks after it may take together.
+struct Budget {
+    file: String,
+    spent_bytes: u64,
+    limit_bytes: u64,
+}
+
+impl Budget {
+    /// Goes on where the asset's load ended; `file` is who errors name.
+    fn of(asset: &Asset, file: String, options: &LoadOptions) -> Self {
+        Self { file, spent_bytes: asset.loaded_bytes, limit_bytes: options.memory_limit_bytes }
+    }
+
+    fn left_bytes(&self) -> u64 {
+        self.limit_bytes.saturating_sub(self.spent_bytes)
+    }
+
+    /// Refuses bytes that would go over the limit, for what lives only a moment. Returns the sum with all before it.
+    fn check(&self, field: &str, bytes: u64) -> Result<u64, AssetError> {
+        let (needed_bytes, limit_bytes) = (self.spent_bytes.saturating_add(bytes), self.limit_bytes);
+        if needed_bytes > limit_bytes {
+            let (file, field) = (self.file.clone(), field.to_owned());
+            return Err(AssetError::Memory { file, field, needed_bytes, limit_bytes });
+        }
+        Ok(needed_bytes)
+    }
+
+    /// Counts bytes; call before they are allocated.
+    fn spend(&mut self, field: &str, bytes: u64) -> Result<(), AssetError> {
+        self.spent_bytes = self.check(field, bytes)?;
+        Ok(())
+    }
+}
+
+/// Reads the images that looks name.
+fn images_of(folder: &Path, options: &LoadOptions, budget: &mut Budget) -> impl FnMut(&str) -> Result<Image, String> {
     move |file| {
-        let image = asset::read_inside(&folder, file, &left)
-            .and_then(|bytes| asset::decode_image(&bytes, file, left.memory_limit_bytes))
+        let left = LoadOptions { memory_limit_bytes: budget.left_bytes(), ..options.clone() };
+        let image = asset::read_inside(folder, file, &left)
+            .and_then(|bytes| {
+                let left_bytes = left.memory_limit_bytes.saturating_sub(bytes.len() as u64);
+                asset::decode_image(&bytes, file, left_bytes)
+            })
             .map_err(|error| error.to_string())?;
-        left.memory_limit_bytes = left.memory_limit_bytes.saturating_sub(image.rgba.len() as u64);
+        // With the smaller levels that the device gets.
+        let bytes = image.rgba.len() as u64;
+        budget.spend(file, bytes + bytes / 3).map_err(|error| error.to_string())?;
         Ok(image)
     }
 }
@@ -225,13 +263,26 @@ fn new_id() -> u64 {
     NEXT_ID.fetch_add(1, Ordering::Relaxed)
 }
 
-/// A look may put a normal map where the file had none.
-fn add_missing_tangents(asset: &mut Asset, materials: &[Material]) {
-    for primitive in asset.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        let standard = &materials[primitive.material].standard;
-        let wanted = standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture);
-        if let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) {
-            generate_tangents(primitive, map.uv_set as usize);
+/// A look may put a normal map where the file had none. Where no tangents can be made, a warning says why.
+fn add_missing_tangents(asset: &mut Asset, materials: &[Material], budget: &mut Budget) -> Result<(), AssetError> {
+    for (m, mesh) in asset.meshes.iter_mut().enumerate() {
+        for (p, primitive) in mesh.primitives.iter_mut().enumerate() {
+            let standard = &materials[primitive.material].standard;
+            let wanted = standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture);
+            let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) else { continue };
+            let field = format!("meshes[{m}].primitives[{p}]");
+            let (kept_bytes, scratch_bytes) = tangent_bytes(primitive);
+            budget.check(&field, kept_bytes.saturating_add(scratch_bytes))?;
+            match generate_tangents(primitive, map.uv_set as usize) {
+                Ok(()) => budget.spend(&field, kept_bytes)?,
+                Err(reason) => {
+                    let warning = format!("{field}: {reason}");
+                    if !asset.warnings.contains(&warning) {
+                        asset.warnings.push(warning);
+                    }
+                }
+            }
         }
     }
+    Ok(())
 }

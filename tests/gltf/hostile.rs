@@ -3,7 +3,7 @@
 use crate::builder::*;
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use vair::asset::{Asset, Topology};
+use vair::asset::{Asset, AssetError, Topology};
 
 /// A file that uses most of the reader.
 fn rich() -> Vec<u8> {
@@ -164,4 +164,50 @@ fn collapsed_triangles_get_tangents_in_time() {
     let start = std::time::Instant::now();
     assert_promises(&b.load().unwrap());
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+}
+
+fn over_memory(result: Result<Asset, AssetError>, field: &str) {
+    let error = result.expect_err("must be refused");
+    assert!(matches!(error, AssetError::Memory { .. }), "{error}");
+    assert!(error.to_string().contains(field), "{error}");
+}
+
+/// A million vertices that take no bytes, times targets of two bytes each.
+#[test]
+fn empty_morph_targets_count_as_what_they_become() {
+    let mut b = Builder::new();
+    let vertices = json!({ "componentType": FLOAT, "type": "VEC3", "count": 1_000_000 });
+    let vertices = b.push("accessors", vertices);
+    let indices = b.shorts(&[0, 1, 2]);
+    let targets = vec![json!({}); 1000];
+    let attributes = json!({ "POSITION": vertices, "NORMAL": vertices });
+    b.mesh(json!({ "attributes": attributes, "indices": indices, "targets": targets }));
+    over_memory(b.load(), "meshes[0].primitives[0].targets");
+    b.set("/meshes/0/primitives/0/targets", json!([{}]));
+    assert_eq!(b.load().unwrap().meshes[0].primitives[0].morph_targets.len(), 1);
+}
+
+#[test]
+fn short_json_counts_as_what_it_becomes() {
+    let mut b = quad();
+    b.set("/materials", json!(vec![json!({}); 100_000]));
+    over_memory(load_limited(&b.glb(), 64 << 20), "JSON");
+    let mut b = skinned(&[0; 16], &[1.0, 0.0, 0.0, 0.0].repeat(4));
+    b.set("/skins/0/joints", json!(vec![1; 600_000]));
+    over_memory(load_limited(&b.glb(), 64 << 20), "JSON");
+}
+
+#[test]
+fn long_names_and_many_warnings_are_cut() {
+    let mut b = quad();
+    let name = "é".repeat(500_000);
+    b.set("/nodes/0/children", json!([1])).push("nodes", json!({ "name": name }));
+    b.set("/scenes", json!([{ "nodes": vec![1; 20_000] }])).set("/meshes/0/name", json!("m".repeat(100_000)));
+    let asset = b.load().unwrap();
+    assert_eq!(asset.nodes[1].name.as_deref(), Some("é".repeat(128).as_str()));
+    assert_eq!(asset.meshes[0].name.as_ref().map(String::len), Some(256));
+    assert!(asset.warnings.iter().any(|line| line.starts_with("nodes: 1 names are longer")), "{}", asset.warnings[0]);
+    assert!(asset.warnings.len() <= 201 && asset.warnings.iter().all(|line| line.len() <= 503));
+    let last = asset.warnings.last().unwrap();
+    assert!(last.starts_with("and 198") && last.ends_with(" more"), "{last}");
 }
