@@ -124,6 +124,7 @@ pub(crate) static COPY_COMP: LazyLock<Shader> = LazyLock::new(|| Shader {
         "copy.comp",
         Stage::Compute,
         "#version 450
+        #extension GL_EXT_samplerless_texture_functions : require
         layout(local_size_x = 4, local_size_y = 4) in;
         layout(set = 0, binding = 0, rgba8) uniform writeonly image2D target;
         layout(set = 1, binding = 0) uniform texture2D source;
