@@ -88,10 +88,6 @@ pub struct DeviceInfo {
     pub max_uniform_bytes: u64,
     /// Largest storage block, bytes.
     pub max_storage_bytes: u64,
-    /// Offsets of uniform ranges are multiples of this, bytes.
-    pub uniform_offset_alignment: u64,
-    /// Offsets of storage ranges are multiples of this, bytes.
-    pub storage_offset_alignment: u64,
     /// Most workgroups of one dispatch in x, y and z.
     pub max_workgroups: [u32; 3],
 }
@@ -148,11 +144,12 @@ fn candidates(instance: &Instance) -> Result<Vec<Candidate>, GpuError> {
         Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
         Err(result) => return Err(GpuError::from_vk("listing", "devices", result)),
     };
-    Ok(physical_devices.into_iter().map(|physical| examine(instance, physical)).collect())
+    Ok(physical_devices.into_iter().map(|physical| examine(instance, physical, None)).collect())
 }
 
-/// Asks a physical device for everything that matters.
-pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate {
+/// Asks a physical device for everything that matters. `given` is the queue family of a host, whose timestamps count;
+/// `None` takes the first that will do.
+pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice, given: Option<u32>) -> Candidate {
     // SAFETY: `physical` was listed by `instance`.
     let properties = unsafe { instance.get_physical_device_properties(physical) };
     let version = properties.api_version;
@@ -184,7 +181,8 @@ pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
     // SAFETY: `physical` was listed by `instance`.
     let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
     let needed = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-    let family = families.iter().position(|family| family.queue_flags.contains(needed));
+    let will_do = |index: usize| given.is_none_or(|given| given as usize == index);
+    let family = (0..families.len()).find(|&index| will_do(index) && families[index].queue_flags.contains(needed));
     if family.is_none() {
         missing.push("a queue with graphics and compute".to_owned());
     }
@@ -220,8 +218,6 @@ pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
         max_anisotropy: limits.max_sampler_anisotropy,
         max_uniform_bytes: u64::from(limits.max_uniform_buffer_range),
         max_storage_bytes: u64::from(limits.max_storage_buffer_range),
-        uniform_offset_alignment: limits.min_uniform_buffer_offset_alignment,
-        storage_offset_alignment: limits.min_storage_buffer_offset_alignment,
         max_workgroups: limits.max_compute_work_group_count,
     };
     let family = family.unwrap_or(0) as u32;

@@ -17,8 +17,6 @@ use std::sync::Arc;
 pub enum Resource<'a> {
     /// A whole buffer, as uniform or storage block.
     Buffer(&'a Buffer),
-    /// Part of a buffer: offset and size in bytes.
-    BufferRange(&'a Buffer, u64, u64),
     /// An image that is read through a sampler, all levels.
     Texture(&'a Image),
     /// An image that is loaded and stored, level 0.
@@ -60,7 +58,7 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Interface`] naming pipeline, set and binding for a missing name, a resource of the wrong kind or
-    /// usage, or a buffer that is too small, too large or misaligned; [`GpuError::OutOfMemory`].
+    /// usage, or a buffer that is too small or too large; [`GpuError::OutOfMemory`].
     pub fn bind_group(
         &self,
         pipeline: &Pipeline,
@@ -87,7 +85,7 @@ impl Gpu {
                 .ok_or_else(|| problem(format!("{place} has no resource in group '{name}'")))?;
             infos.push(info(context, slot, *resource).map_err(|what| problem(format!("{place}: {what}")))?);
             match resource {
-                Resource::Buffer(buffer) | Resource::BufferRange(buffer, ..) => kept.push(buffer.0.clone()),
+                Resource::Buffer(buffer) => kept.push(buffer.0.clone()),
                 Resource::Texture(image) => images.push((image.0.clone(), ImageUse::Sampled)),
                 Resource::StorageImage(image) => images.push((image.0.clone(), ImageUse::Storage)),
                 Resource::Sampler(sampler) => kept.push(sampler.0.clone()),
@@ -143,12 +141,7 @@ impl Gpu {
 fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, String> {
     use vk::DescriptorType as T;
     match (slot.descriptor, resource) {
-        (T::UNIFORM_BUFFER | T::STORAGE_BUFFER, Resource::Buffer(buffer)) => {
-            buffer_info(context, slot, buffer, 0, buffer.bytes())
-        }
-        (T::UNIFORM_BUFFER | T::STORAGE_BUFFER, Resource::BufferRange(buffer, offset, bytes)) => {
-            buffer_info(context, slot, buffer, offset, bytes)
-        }
+        (T::UNIFORM_BUFFER | T::STORAGE_BUFFER, Resource::Buffer(buffer)) => buffer_info(context, slot, buffer),
         (T::SAMPLED_IMAGE, Resource::Texture(image)) => {
             image_info(image, image.0.view, vk::ImageUsageFlags::SAMPLED, ImageUse::Sampled)
         }
@@ -160,7 +153,7 @@ fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, 
         }
         (expected, given) => {
             let given = match given {
-                Resource::Buffer(_) | Resource::BufferRange(..) => "a buffer",
+                Resource::Buffer(_) => "a buffer",
                 Resource::Texture(_) => "a texture",
                 Resource::StorageImage(_) => "a storage image",
                 Resource::Sampler(_) => "a sampler",
@@ -170,23 +163,15 @@ fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, 
     }
 }
 
-fn buffer_info(context: &Context, slot: &Slot, buffer: &Buffer, offset: u64, bytes: u64) -> Result<Info, String> {
+fn buffer_info(context: &Context, slot: &Slot, buffer: &Buffer) -> Result<Info, String> {
     let info = &context.info;
-    let (usage, alignment, limit) = match slot.descriptor {
-        vk::DescriptorType::UNIFORM_BUFFER => {
-            (vk::BufferUsageFlags::UNIFORM_BUFFER, info.uniform_offset_alignment, info.max_uniform_bytes)
-        }
-        _ => (vk::BufferUsageFlags::STORAGE_BUFFER, info.storage_offset_alignment, info.max_storage_bytes),
+    let (usage, limit) = match slot.descriptor {
+        vk::DescriptorType::UNIFORM_BUFFER => (vk::BufferUsageFlags::UNIFORM_BUFFER, info.max_uniform_bytes),
+        _ => (vk::BufferUsageFlags::STORAGE_BUFFER, info.max_storage_bytes),
     };
-    let name = buffer.name();
+    let (name, bytes) = (buffer.name(), buffer.bytes());
     if !buffer.0.usage.contains(usage) {
         return Err(format!("buffer '{name}' lacks {usage:?}"));
-    }
-    if bytes == 0 || offset.checked_add(bytes).is_none_or(|end| end > buffer.bytes()) {
-        return Err(format!("{bytes} bytes at {offset} are not a range of buffer '{name}' of {}", buffer.bytes()));
-    }
-    if !offset.is_multiple_of(alignment.max(1)) {
-        return Err(format!("offset {offset} in buffer '{name}' is no multiple of {alignment}"));
     }
     if bytes < slot.bytes {
         return Err(format!("buffer '{name}' gives {bytes} bytes and the block has {}", slot.bytes));
@@ -194,7 +179,7 @@ fn buffer_info(context: &Context, slot: &Slot, buffer: &Buffer, offset: u64, byt
     if bytes > limit {
         return Err(format!("{bytes} bytes of buffer '{name}' are beyond this device's {limit}"));
     }
-    Ok(Info::Buffer([vk::DescriptorBufferInfo { buffer: buffer.0.raw, offset, range: bytes }]))
+    Ok(Info::Buffer([vk::DescriptorBufferInfo { buffer: buffer.0.raw, offset: 0, range: bytes }]))
 }
 
 fn image_info(

@@ -5,7 +5,7 @@ use super::choose::{self, Candidate, DeviceInfo};
 use super::encoder::Encoder;
 use super::error::GpuError;
 use super::host::HostDevice;
-use super::instance::Instance;
+use super::instance::{Instance, ValidationLog};
 use super::layout::Layouts;
 use super::memory::{Heap, MemoryReport};
 use super::query::RawRecording;
@@ -14,6 +14,7 @@ use super::sampler::Samplers;
 use ash::vk;
 use std::ffi::CString;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How to open a device.
@@ -86,6 +87,8 @@ pub(crate) struct Context {
     pub(crate) layouts: Mutex<Layouts>,
     pub(crate) samplers: Mutex<Samplers>,
     pub(crate) recordings: Mutex<Vec<RawRecording>>,
+    /// Number of encoders so far; an encoder is known by its number.
+    pub(crate) encoders: AtomicU64,
     pub(crate) cache: PipelineCache,
     pub(crate) debug: Option<ash::ext::debug_utils::Device>,
     pub(crate) heap: Mutex<Heap>,
@@ -102,8 +105,8 @@ impl Gpu {
     /// Opens the best usable device.
     ///
     /// # Errors
-    /// [`GpuError::NoLoader`], [`GpuError::NoDevice`] with what each device lacks, [`GpuError::MissingLayer`] when
-    /// validation is asked for and absent, or what the driver answers.
+    /// [`GpuError::NoLoader`], [`GpuError::NoDevice`] with what each device lacks, [`GpuError::MissingLayer`] or
+    /// [`GpuError::MissingExtension`] when validation is asked for and absent, or what the driver answers.
     pub fn new(options: &GpuOptions) -> Result<Self, GpuError> {
         let instance = Instance::new(options.validate)?;
         let candidate = choose::choose(&instance, options.device.as_deref())?;
@@ -130,14 +133,17 @@ impl Gpu {
     /// this is dropped, all host command buffers that this crate recorded into have finished.
     ///
     /// # Errors
-    /// [`GpuError::NoDevice`] when required features are not among `host.features`, or what the driver answers.
+    /// [`GpuError::NoDevice`] when the device lacks Vulkan 1.3, the queue family graphics or compute, or
+    /// `host.features` a required feature; or what the driver answers.
     pub unsafe fn from_host(host: HostDevice) -> Result<Self, GpuError> {
-        let mut candidate = choose::examine(&host.instance, host.physical_device);
-        candidate.missing = host.features.missing();
+        let mut candidate = choose::examine(&host.instance, host.physical_device, Some(host.queue_family));
+        // What the device lacks, the host cannot have enabled: named once.
+        let not_enabled = host.features.missing().into_iter().filter(|name| !candidate.missing.contains(name));
+        let not_enabled: Vec<_> = not_enabled.collect();
+        candidate.missing.extend(not_enabled);
         if !candidate.missing.is_empty() {
             return Err(GpuError::NoDevice { asked: None, refused: vec![candidate.report()] });
         }
-        candidate.family = host.queue_family;
         candidate.features = host.features;
         candidate.info.set_optional(&host.features);
         let instance = Instance::from_host(host.entry, host.instance, host.has_debug_utils);
@@ -171,6 +177,7 @@ impl Gpu {
             layouts: Mutex::default(),
             samplers: Mutex::default(),
             recordings: Mutex::default(),
+            encoders: AtomicU64::new(0),
             cache,
             debug,
             heap: Mutex::new(heap),
@@ -189,7 +196,13 @@ impl Gpu {
     /// All warnings and errors of the validation layer so far, each `error: <id>: <text>` or `warning: ...`. Empty
     /// without validation and on a host's device, where the host has its own messenger.
     pub fn validation_messages(&self) -> Vec<String> {
-        self.0.0.instance.messages()
+        self.validation_log().messages()
+    }
+
+    /// The validation layer's messages, readable after the device and all made from it are gone: what the end itself
+    /// brought up is in there, too.
+    pub fn validation_log(&self) -> ValidationLog {
+        self.0.0.instance.log.clone()
     }
 
     /// What the live objects hold.
@@ -214,7 +227,8 @@ impl Gpu {
         drop(done);
     }
 
-    /// Starts recording. Encoders are submitted in the order in which they were recorded.
+    /// Starts recording. An image is recorded by one encoder at a time, until that is submitted or dropped; so whatever
+    /// the order of submission, each finds its images as it was told.
     ///
     /// # Errors
     /// [`GpuError::OutOfMemory`] or [`GpuError::DeviceLost`].

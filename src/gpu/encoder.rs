@@ -13,6 +13,7 @@ use super::retire::Kept;
 use ash::vk;
 use std::ffi::CString;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// What a target holds when a pass starts.
@@ -75,8 +76,10 @@ pub struct Encoder {
     passes: Vec<PassRecord>,
     kinds: PassKinds,
     kept: Kept,
+    /// Never 0: that is nobody's.
+    number: u64,
     /// Images with the use that they had before; restored when nothing is submitted.
-    touched: Vec<(Arc<ImageInner>, ImageUse)>,
+    claimed: Vec<(Arc<ImageInner>, ImageUse)>,
     problem: Option<GpuError>,
     started: Instant,
 }
@@ -103,7 +106,8 @@ impl Encoder {
             passes: Vec::new(),
             kinds: PassKinds::default(),
             kept: Kept::default(),
-            touched: Vec::new(),
+            number: gpu.context().encoders.fetch_add(1, Ordering::Relaxed) + 1,
+            claimed: Vec::new(),
             problem: None,
             started: Instant::now(),
         };
@@ -129,7 +133,9 @@ impl Encoder {
         }
         uses.extend(desc.depth.map(|target| (&target.image.0, ImageUse::DepthTarget)));
         uses.extend(desc.sampled.iter().map(|image| (&image.0, ImageUse::Sampled)));
-        self.begin_pass(desc.name, PassKind::Render, &uses);
+        if !self.begin_pass(desc.name, PassKind::Render, &uses) {
+            return;
+        }
 
         let colors: Vec<_> = desc.color.iter().map(color_attachment).collect();
         let depth = desc.depth.map(depth_attachment);
@@ -152,7 +158,9 @@ impl Encoder {
     /// `sampled` is for images that are read otherwise.
     pub fn compute_pass(&mut self, name: &str, sampled: &[&Image], record: impl FnOnce(&mut ComputePass<'_>)) {
         let uses: Vec<_> = sampled.iter().map(|image| (&image.0, ImageUse::Sampled)).collect();
-        self.begin_pass(name, PassKind::Compute, &uses);
+        if !self.begin_pass(name, PassKind::Compute, &uses) {
+            return;
+        }
         record(&mut ComputePass::new(self));
         self.end_pass(PassKind::Compute);
     }
@@ -166,7 +174,9 @@ impl Encoder {
             let problem = format!("{what}, cannot be copied to '{}' of {} bytes", buffer.name(), buffer.bytes());
             return self.fail(inner.range(problem));
         }
-        self.begin_pass(&format!("copy {}", inner.name), PassKind::Copy, &[(inner, ImageUse::CopySource)]);
+        if !self.begin_pass(&format!("copy {}", inner.name), PassKind::Copy, &[(inner, ImageUse::CopySource)]) {
+            return;
+        }
         let region = copy_region(inner, 0, 0);
         self.kept.keep(&buffer.0);
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
@@ -182,22 +192,10 @@ impl Encoder {
             let problem = format!("does not hold the {} bytes of '{}'", source.bytes(), source.name());
             return self.fail(target.0.range(problem));
         }
-        self.begin_pass(&format!("copy {}", source.name()), PassKind::Copy, &[]);
-        self.copy_to_buffer(source, 0, target, 0, source.bytes());
-        self.end_pass(PassKind::Copy);
-    }
-
-    /// Fills all whole words of `buffer` with `word`.
-    pub fn fill_buffer(&mut self, buffer: &Buffer, word: u32) {
-        self.begin_pass(&format!("fill {}", buffer.name()), PassKind::Copy, &[]);
-        self.kept.keep(&buffer.0);
-        let bytes = buffer.bytes() & !3;
-        if bytes > 0 {
-            let device = &self.gpu.context().device;
-            // SAFETY: the size is a multiple of 4 within the buffer, which is kept alive.
-            unsafe { device.cmd_fill_buffer(self.command_buffer, buffer.0.raw, 0, bytes, word) };
+        if self.begin_pass(&format!("copy {}", source.name()), PassKind::Copy, &[]) {
+            self.copy_to_buffer(source, 0, target, 0, source.bytes());
+            self.end_pass(PassKind::Copy);
         }
-        self.end_pass(PassKind::Copy);
     }
 
     /// Brings an image into the layout of a use outside of the passes, for example the host's.
@@ -205,7 +203,9 @@ impl Encoder {
         if image_use == ImageUse::Undefined || image_use == ImageUse::Host(vk::ImageLayout::UNDEFINED) {
             return self.fail(image.0.range("an image cannot be made undefined".to_owned()));
         }
-        self.transition_all(&[(&image.0, image_use)]);
+        if let Err(problem) = self.transition_all(&[(&image.0, image_use)]) {
+            self.fail(problem);
+        }
     }
 
     /// Submits what was recorded.
@@ -241,7 +241,7 @@ impl Encoder {
         queue.last_submitted = value;
         drop(queue);
 
-        self.touched.clear();
+        self.release();
         let mut kept = std::mem::take(&mut self.kept);
         kept.keep(&recording);
         lock(&context.retired).submitted(value, kept);
@@ -285,8 +285,20 @@ impl Encoder {
         }
     }
 
-    /// The one place where a pass begins: label, barriers, then its time and counts.
-    pub(crate) fn begin_pass(&mut self, name: &str, kind: PassKind, uses: &[(&Arc<ImageInner>, ImageUse)]) {
+    /// Gives the images back to other encoders.
+    fn release(&mut self) {
+        for (image, _) in self.claimed.drain(..) {
+            image.recorder.store(0, Ordering::Release);
+        }
+    }
+
+    /// The one place where a pass begins: label, barriers, then its time and counts. False where it cannot begin: then
+    /// the submission fails, and nothing of the pass may be recorded.
+    pub(crate) fn begin_pass(&mut self, name: &str, kind: PassKind, uses: &[(&Arc<ImageInner>, ImageUse)]) -> bool {
+        if let Err(problem) = self.transition_all(uses) {
+            self.fail(problem);
+            return false;
+        }
         let index = self.passes.len();
         self.passes.push(PassRecord { name: name.to_owned(), ..PassRecord::default() });
         if let (Some(debug), Ok(name)) = (&self.gpu.context().debug, CString::new(name)) {
@@ -298,11 +310,11 @@ impl Encoder {
             self.barriers(&[dependency.memory_barrier()], &[]);
         }
         self.kinds.insert(kind);
-        self.transition_all(uses);
         if let Some(recording) = &mut self.recording {
             recording.begin_pass(index, kind != PassKind::Copy);
         }
         self.fence_timestamp();
+        true
     }
 
     /// Keeps a timestamp apart from the work on either side. Tile-based devices, lavapipe among them, put work off until
@@ -327,35 +339,44 @@ impl Encoder {
         }
     }
 
-    /// Brings every image into its use, in one command.
-    pub(crate) fn transition_all(&mut self, uses: &[(&Arc<ImageInner>, ImageUse)]) {
+    /// Takes the images for this encoder until it is submitted or dropped, or says why that cannot be. What an encoder
+    /// believes of an image's layout thus never depends on another one that may be submitted later or not at all.
+    pub(crate) fn claim(&mut self, uses: &[(&Arc<ImageInner>, ImageUse)]) -> Result<(), GpuError> {
+        for (index, (image, image_use)) in uses.iter().enumerate() {
+            let earlier = uses[..index].iter().find(|(earlier, _)| Arc::ptr_eq(earlier, image));
+            if let Some((_, other)) = earlier.filter(|(_, other)| other != image_use) {
+                return Err(image.range(format!("used as {other:?} and {image_use:?} at once")));
+            }
+        }
+        for (image, _) in uses {
+            match image.recorder.compare_exchange(0, self.number, Ordering::AcqRel, Ordering::Acquire) {
+                Ok(_) => self.claimed.push(((*image).clone(), *lock(&image.last_use))),
+                Err(holder) if holder == self.number => {}
+                Err(_) => {
+                    let problem = "another encoder has recorded it: submit or drop that one first".to_owned();
+                    return Err(image.range(problem));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Brings every image into its use, in one command. On an error nothing is recorded.
+    pub(crate) fn transition_all(&mut self, uses: &[(&Arc<ImageInner>, ImageUse)]) -> Result<(), GpuError> {
+        self.claim(uses)?;
         let mut image_barriers = Vec::new();
         for (index, (image, after)) in uses.iter().enumerate() {
-            self.kept.keep(image);
-            if let Some((_, other)) = uses[..index].iter().find(|(earlier, _)| Arc::ptr_eq(earlier, image)) {
-                if other != after {
-                    self.fail(image.range(format!("used as {other:?} and {after:?} in one pass")));
-                }
+            if uses[..index].iter().any(|(earlier, _)| Arc::ptr_eq(earlier, image)) {
                 continue;
             }
+            self.kept.keep(image);
             let before = std::mem::replace(&mut *lock(&image.last_use), *after);
-            if !self.touched.iter().any(|(touched, _)| Arc::ptr_eq(touched, image)) {
-                self.touched.push(((*image).clone(), before));
-            }
             if let Some(dependency) = barrier::between_uses(before, *after) {
                 image_barriers.push(dependency.image_barrier(image.raw, format::aspects(image.format)));
             }
         }
         self.barriers(&[], &image_barriers);
-    }
-
-    /// A barrier between two dispatches of one pass.
-    pub(crate) fn compute_barrier(&mut self) {
-        let mut kinds = PassKinds::default();
-        kinds.insert(PassKind::Compute);
-        if let Some(dependency) = barrier::before_pass(kinds, PassKind::Compute) {
-            self.barriers(&[dependency.memory_barrier()], &[]);
-        }
+        Ok(())
     }
 
     /// Copies between buffers inside of a copy pass; the caller has checked the ranges.
@@ -400,12 +421,13 @@ impl Drop for Encoder {
         if self.is_on_host {
             let kept = std::mem::take(&mut self.kept);
             lock(&self.gpu.context().retired).recorded_on_host(kept);
-            return;
+        } else {
+            // Not submitted: the images are still what they were.
+            for (image, before) in &self.claimed {
+                *lock(&image.last_use) = *before;
+            }
         }
-        // Not submitted: the images are still what they were.
-        for (image, before) in self.touched.drain(..) {
-            *lock(&image.last_use) = before;
-        }
+        self.release();
     }
 }
 

@@ -26,6 +26,12 @@ pub enum GpuError {
         /// Name of the layer.
         layer: &'static str,
     },
+    /// Validation was asked for and its messages would have no way out.
+    #[error("the Vulkan loader lacks {extension}, which validation needs: update it (Debian: libvulkan1)")]
+    MissingExtension {
+        /// Name of the instance extension.
+        extension: &'static str,
+    },
     /// Host or device memory ran out.
     #[error("out of memory for '{name}': use a smaller size, fewer samples or smaller textures")]
     OutOfMemory {

@@ -28,22 +28,19 @@ macro_rules! feature {
     };
 }
 
-const REQUIRED: [Feature; 5] = [
-    feature!(core.robust_buffer_access, "an index of a file may lie outside its buffer"),
+const REQUIRED: [Feature; 6] = [
+    feature!(core.robust_buffer_access, "an index of a file may lie outside the vertices"),
+    feature!(core.full_draw_index_uint32, "an index of a file may have any 32 bits"),
     feature!(v12.timeline_semaphore, "submissions are counted"),
     feature!(v12.host_query_reset, "queries are reset without a command"),
     feature!(v13.dynamic_rendering, "passes have no render-pass objects"),
     feature!(v13.synchronization2, "barriers"),
 ];
 
-const OPTIONAL: [Feature; 7] = [
+const OPTIONAL: [Feature; 3] = [
     feature!(core.pipeline_statistics_query, "invocation counts per pass"),
     feature!(core.sampler_anisotropy, "sharper textures at grazing angles"),
     feature!(core.fragment_stores_and_atomics, "counting shaded fragments"),
-    feature!(core.vertex_pipeline_stores_and_atomics, "storage buffers in vertex shaders without readonly"),
-    feature!(core.independent_blend, "targets with unequal blending"),
-    feature!(core.depth_clamp, "shadow casters before the near plane"),
-    feature!(v12.scalar_block_layout, "tightly packed storage blocks"),
 ];
 
 impl Features {

@@ -6,6 +6,7 @@ use super::error::GpuError;
 use super::format;
 use super::memory::{Block, Memory};
 use ash::vk;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
 /// What image to create.
@@ -42,6 +43,8 @@ pub(crate) struct ImageInner {
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
     pub(crate) last_use: Mutex<ImageUse>,
+    /// Number of the encoder that has recorded this and is neither submitted nor dropped; 0 without one.
+    pub(crate) recorder: AtomicU64,
     block: Mutex<Option<Block>>,
     is_owned: bool,
 }
@@ -90,6 +93,7 @@ impl Gpu {
             samples: desc.samples,
             usage,
             last_use: Mutex::new(ImageUse::Undefined),
+            recorder: AtomicU64::new(0),
             block: Mutex::new(None),
             is_owned: true,
         };
@@ -177,6 +181,7 @@ impl Image {
             samples: 1,
             usage: vk::ImageUsageFlags::from_raw(u32::MAX),
             last_use: Mutex::new(last_use),
+            recorder: AtomicU64::new(0),
             block: Mutex::new(None),
             is_owned: false,
         }))

@@ -1,20 +1,29 @@
 //! Loader, instance, validation layer and its messages.
 
+use super::device::lock;
 use super::error::GpuError;
 use ash::vk;
 use std::ffi::{CStr, c_void};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// Warnings and errors of the validation layer, oldest first.
-#[derive(Default)]
-pub(crate) struct Messages(Mutex<Vec<String>>);
+/// Warnings and errors of the validation layer. A clone reads the same log, and outlives the device.
+#[derive(Debug, Clone, Default)]
+pub struct ValidationLog(Arc<Mutex<Vec<String>>>);
+
+impl ValidationLog {
+    /// All so far, oldest first, each `error: <id>: <text>` or `warning: ...`. Always empty without validation.
+    pub fn messages(&self) -> Vec<String> {
+        lock(&self.0).clone()
+    }
+}
 
 struct Messenger {
     functions: ash::ext::debug_utils::Instance,
     raw: vk::DebugUtilsMessengerEXT,
-    messages: Arc<Messages>,
+    /// Keeps alive what the callback writes to.
+    _log: ValidationLog,
 }
 
 /// An instance, destroyed on drop unless a host owns it.
@@ -23,6 +32,7 @@ pub(crate) struct Instance {
     _entry: ash::Entry,
     raw: ash::Instance,
     messenger: Option<Messenger>,
+    pub(crate) log: ValidationLog,
     pub(crate) has_debug_utils: bool,
     is_owned: bool,
 }
@@ -43,13 +53,13 @@ impl Instance {
         // SAFETY: no preconditions.
         let layers = unsafe { entry.enumerate_instance_layer_properties() }.map_err(failed)?;
         let has_layer = layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
-        if validate && !has_layer {
-            return Err(GpuError::MissingLayer { layer: "VK_LAYER_KHRONOS_validation" });
-        }
         // SAFETY: no preconditions.
         let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }.map_err(failed)?;
         let has_debug_utils =
             extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(ash::ext::debug_utils::NAME));
+        if validate {
+            can_validate(has_layer, has_debug_utils)?;
+        }
 
         let application = vk::ApplicationInfo::default()
             .application_name(c"vair")
@@ -75,22 +85,31 @@ impl Instance {
         }
         // SAFETY: every layer and extension named was listed by the loader or comes with the layer.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(not_created)?;
-        let mut instance = Self { _entry: entry, raw, messenger: None, has_debug_utils, is_owned: true };
-        if validate && has_debug_utils {
-            instance.messenger = Some(Messenger::new(&instance._entry, &instance.raw)?);
+        let mut instance = Self {
+            _entry: entry,
+            raw,
+            messenger: None,
+            log: ValidationLog::default(),
+            has_debug_utils,
+            is_owned: true,
+        };
+        if validate {
+            instance.messenger = Some(Messenger::new(&instance._entry, &instance.raw, &instance.log)?);
         }
         Ok(instance)
     }
 
     pub(crate) fn from_host(entry: ash::Entry, raw: ash::Instance, has_debug_utils: bool) -> Self {
-        Self { _entry: entry, raw, messenger: None, has_debug_utils, is_owned: false }
+        Self { _entry: entry, raw, messenger: None, log: ValidationLog::default(), has_debug_utils, is_owned: false }
     }
+}
 
-    pub(crate) fn messages(&self) -> Vec<String> {
-        match &self.messenger {
-            Some(messenger) => messenger.messages.0.lock().unwrap_or_else(PoisonError::into_inner).clone(),
-            None => Vec::new(),
-        }
+/// Without the extension the layer would run and nobody would hear it.
+fn can_validate(has_layer: bool, has_debug_utils: bool) -> Result<(), GpuError> {
+    match (has_layer, has_debug_utils) {
+        (false, _) => Err(GpuError::MissingLayer { layer: "VK_LAYER_KHRONOS_validation" }),
+        (true, false) => Err(GpuError::MissingExtension { extension: "VK_EXT_debug_utils" }),
+        (true, true) => Ok(()),
     }
 }
 
@@ -113,9 +132,8 @@ impl Drop for Instance {
 }
 
 impl Messenger {
-    fn new(entry: &ash::Entry, instance: &ash::Instance) -> Result<Self, GpuError> {
+    fn new(entry: &ash::Entry, instance: &ash::Instance, log: &ValidationLog) -> Result<Self, GpuError> {
         let functions = ash::ext::debug_utils::Instance::new(entry, instance);
-        let messages = Arc::new(Messages::default());
         let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
             .message_severity(
                 vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
@@ -125,11 +143,11 @@ impl Messenger {
                 vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
             )
             .pfn_user_callback(Some(on_message))
-            .user_data(Arc::as_ptr(&messages).cast_mut().cast());
-        // SAFETY: the extension is enabled; the user data lives in this struct, which outlives the messenger.
+            .user_data(Arc::as_ptr(&log.0).cast_mut().cast());
+        // SAFETY: the extension is enabled; the user data is what `_log` keeps, which outlives the messenger.
         let raw = unsafe { functions.create_debug_utils_messenger(&info, None) }
             .map_err(|result| GpuError::from_vk("creating", "debug messenger", result))?;
-        Ok(Self { functions, raw, messages })
+        Ok(Self { functions, raw, _log: log.clone() })
     }
 }
 
@@ -148,8 +166,8 @@ unsafe extern "system" fn on_message(
 ) -> vk::Bool32 {
     // SAFETY: the layer passes a valid structure for the time of the call (VkDebugUtilsMessengerCallbackEXT).
     let Some(data) = (unsafe { data.as_ref() }) else { return vk::FALSE };
-    // SAFETY: the pointer was set from an `Arc<Messages>` that outlives the messenger.
-    let Some(messages) = (unsafe { user_data.cast::<Messages>().as_ref() }) else { return vk::FALSE };
+    // SAFETY: the pointer was set from the `Arc` of a log that outlives the messenger.
+    let Some(messages) = (unsafe { user_data.cast::<Mutex<Vec<String>>>().as_ref() }) else { return vk::FALSE };
     // SAFETY: `p_message` is null or a null-terminated string, by the same rule.
     let text = unsafe { data.message_as_c_str() }.map(CStr::to_string_lossy).unwrap_or_default();
     // SAFETY: `p_message_id_name` is null or a null-terminated string, by the same rule.
@@ -158,7 +176,7 @@ unsafe extern "system" fn on_message(
         vk::DebugUtilsMessageSeverityFlagsEXT::ERROR => "error",
         _ => "warning",
     };
-    messages.0.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{kind}: {id}: {text}"));
+    lock(messages).push(format!("{kind}: {id}: {text}"));
     vk::FALSE
 }
 
@@ -170,5 +188,13 @@ mod tests {
     fn without_any_driver_the_error_names_the_package() {
         let error = not_created(vk::Result::ERROR_INCOMPATIBLE_DRIVER).to_string();
         assert!(error.contains("mesa-vulkan-drivers"), "{error}");
+    }
+
+    #[test]
+    fn validation_that_nobody_would_hear_is_refused() {
+        assert!(can_validate(true, true).is_ok());
+        assert!(matches!(can_validate(false, true), Err(GpuError::MissingLayer { .. })));
+        let error = can_validate(true, false).err().unwrap().to_string();
+        assert!(error.contains("VK_EXT_debug_utils"), "{error}");
     }
 }

@@ -11,7 +11,8 @@
 //! - **Errors.** Descriptors are checked when built. Recording does not fail: a draw that would be invalid (a set not
 //!   bound, a format that differs) is left out and [`Encoder::submit`] returns the first such error.
 //! - **Picture space.** Clip space is Y up (the viewport is flipped), depth 0 to 1.
-//! - **Robustness.** `robustBufferAccess` is always on: an index out of a buffer reads zero or a value of that buffer.
+//! - **Robustness.** `robustBufferAccess` is always on: a shader or vertex fetch out of a buffer reads zero or a value of
+//!   that buffer. It does not cover the fetch of indices, so an indexed draw is checked against its index buffer.
 
 mod barrier;
 mod buffer;
@@ -50,6 +51,7 @@ pub use features::Features;
 pub use format::{format_bytes, level_size};
 pub use host::HostDevice;
 pub use image::{Image, ImageDesc};
+pub use instance::ValidationLog;
 pub use memory::{Memory, MemoryReport};
 pub use pass::{ComputePass, RenderPass};
 pub use pipeline::{BlendState, ColorState, DepthState, GraphicsDesc, Pipeline};

@@ -9,7 +9,7 @@ use super::device::lock;
 use super::encoder::Encoder;
 use super::error::GpuError;
 use super::interface::SET_COUNT;
-use super::pipeline::{Pipeline, PipelineInner, TargetFormats};
+use super::pipeline::{Pipeline, PipelineInner, TargetFormats, vertex_bytes};
 use ash::vk;
 use std::sync::Arc;
 
@@ -73,6 +73,7 @@ impl Bound {
             let problem = "a draw or dispatch without a pipeline".to_owned();
             return Err(GpuError::Interface { pipeline: "none".to_owned(), problem });
         };
+        let mut groups = Vec::new();
         for (set, slots) in pipeline.interface.sets.iter().enumerate() {
             if slots.is_empty() {
                 continue;
@@ -83,10 +84,17 @@ impl Bound {
             if group.layout != pipeline.set_layouts[set] {
                 return Err(problem(&pipeline, format!("group '{}' is not one for set {set}", group.name)));
             }
+            groups.push((set, group));
+        }
+        // A dispatch may find an image as the one before left it, so all groups count; during a render pass none moves.
+        let is_compute = pipeline.bind_point == vk::PipelineBindPoint::COMPUTE;
+        let with_images = groups.iter().filter(|(set, _)| is_compute || self.is_group_stale[*set]);
+        let with_images: Vec<_> = with_images.map(|(_, group)| group.as_ref()).collect();
+        prepare_images(encoder, &pipeline, &with_images)?;
+        for (set, group) in groups {
             if !self.is_group_stale[set] {
                 continue;
             }
-            prepare_images(encoder, &pipeline, group)?;
             encoder.keep(group);
             let device = &encoder.gpu().context().device;
             let (point, layout, sets) = (pipeline.bind_point, pipeline.layout, [group.raw]);
@@ -111,16 +119,17 @@ impl Bound {
 }
 
 /// Images come into their layouts in a compute pass; in a render pass it is too late, so they must be in it already.
-fn prepare_images(encoder: &mut Encoder, pipeline: &PipelineInner, group: &GroupInner) -> Result<(), GpuError> {
+fn prepare_images(encoder: &mut Encoder, pipeline: &PipelineInner, groups: &[&GroupInner]) -> Result<(), GpuError> {
+    let images = groups.iter().flat_map(|group| &group.images);
+    let uses: Vec<_> = images.map(|(image, image_use)| (image, *image_use)).collect();
     if pipeline.bind_point == vk::PipelineBindPoint::COMPUTE {
-        let uses: Vec<_> = group.images.iter().map(|(image, image_use)| (image, *image_use)).collect();
-        encoder.transition_all(&uses);
-        return Ok(());
+        return encoder.transition_all(&uses);
     }
-    for (image, expected) in &group.images {
+    encoder.claim(&uses)?;
+    for (image, expected) in uses {
         let actual = *lock(&image.last_use);
-        if actual != *expected {
-            let what = format!("image '{}' of group '{}' is in use as {actual:?}", image.name, group.name);
+        if actual != expected {
+            let what = format!("image '{}' is in use as {actual:?}", image.name);
             return Err(problem(pipeline, format!("{what}, not {expected:?}: list it in the pass's `sampled`")));
         }
     }
@@ -131,42 +140,60 @@ fn problem(pipeline: &PipelineInner, problem: String) -> GpuError {
     GpuError::Interface { pipeline: pipeline.name.clone(), problem }
 }
 
-/// A pass that draws. Starts without culling, counter-clockwise triangles in front, the whole area as viewport.
+/// Vertex inputs that every device has ("Vulkan 1.3", table "Required Limits", maxVertexInputBindings).
+const STREAM_COUNT: usize = 16;
+/// Largest stride that every device has (the same table, maxVertexInputBindingStride), bytes.
+const MAX_STRIDE_BYTES: u64 = 2048;
+/// Vertex inputs are made of such components, and aligned to them.
+const COMPONENT_BYTES: u64 = 4;
+
+/// All indices are 32-bit.
+const INDEX_BYTES: u64 = 4;
+
+/// What one vertex input reads.
+#[derive(Clone, Copy)]
+struct Stream {
+    buffer: vk::Buffer,
+    offset_bytes: u64,
+    stride_bytes: u64,
+    is_stale: bool,
+}
+
+/// A pass that draws into its whole area. Starts without culling, counter-clockwise triangles in front.
 pub struct RenderPass<'e> {
     encoder: &'e mut Encoder,
     bound: Bound,
     targets: TargetFormats,
-    /// One bit for each location with a stream.
-    streams: u32,
-    has_indices: bool,
+    /// By location.
+    streams: [Option<Stream>; STREAM_COUNT],
+    /// Indices in the bound range.
+    index_count: Option<u64>,
 }
 
 impl<'e> RenderPass<'e> {
     pub(crate) fn new(encoder: &'e mut Encoder, targets: TargetFormats, size: [u32; 2]) -> Self {
-        let mut pass = Self { encoder, bound: Bound::default(), targets, streams: 0, has_indices: false };
-        pass.viewport([0, 0], size);
+        let streams = [None; STREAM_COUNT];
+        let mut pass = Self { encoder, bound: Bound::default(), targets, streams, index_count: None };
+        pass.draw_to(size);
         pass.cull(vk::CullModeFlags::NONE, vk::FrontFace::COUNTER_CLOCKWISE);
         pass
     }
 
-    /// Draws go to this rectangle, in texels from the upper left corner of the targets.
-    pub fn viewport(&mut self, offset: [u32; 2], size: [u32; 2]) {
+    /// Viewport and scissor are the area of the pass, texels.
+    fn draw_to(&mut self, size: [u32; 2]) {
         let device = &self.encoder.gpu().context().device;
-        let limit = self.encoder.gpu().info().max_image_size;
-        let [x, y] = offset.map(|side| side.min(limit));
-        let [width, height] = size.map(|side| side.clamp(1, limit));
+        let [width, height] = size;
         // A negative height turns clip space Y up.
         let viewport = vk::Viewport {
-            x: x as f32,
-            y: (y + height) as f32,
+            x: 0.0,
+            y: height as f32,
             width: width as f32,
             height: -(height as f32),
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        let scissor =
-            vk::Rect2D { offset: vk::Offset2D { x: x as i32, y: y as i32 }, extent: vk::Extent2D { width, height } };
-        // SAFETY: position and size are within the limits of every device that has such images.
+        let scissor = vk::Rect2D::default().extent(vk::Extent2D { width, height });
+        // SAFETY: the area is not empty and within the targets, and a viewport may be as large as any target.
         unsafe { device.cmd_set_viewport(self.encoder.command_buffer, 0, &[viewport]) };
         // SAFETY: as above.
         unsafe { device.cmd_set_scissor(self.encoder.command_buffer, 0, &[scissor]) };
@@ -181,6 +208,8 @@ impl<'e> RenderPass<'e> {
             return self.encoder.fail(problem(&pipeline.0, what));
         }
         self.bound.pipeline(self.encoder, pipeline, vk::PipelineBindPoint::GRAPHICS);
+        // A pipeline without vertex inputs has fixed strides, which forgets the dynamic ones.
+        self.streams.iter_mut().flatten().for_each(|stream| stream.is_stale = true);
     }
 
     /// Binds a group to a set.
@@ -188,26 +217,25 @@ impl<'e> RenderPass<'e> {
         self.bound.bind(self.encoder, set, group);
     }
 
-    /// Binds the stream of the vertex input at `location`; `stride_bytes` 0 gives every vertex the first value.
+    /// Binds the stream of the vertex input at `location`; `stride_bytes` 0 gives every vertex the first value. Offset
+    /// and stride are multiples of 4, and another stride is at least as large as the value of the input.
     pub fn vertices(&mut self, location: u32, buffer: &Buffer, offset_bytes: u64, stride_bytes: u64) {
         let is_vertex_buffer = buffer.0.usage.contains(vk::BufferUsageFlags::VERTEX_BUFFER);
-        if !is_vertex_buffer || offset_bytes >= buffer.bytes() || location >= 16 || stride_bytes > 2048 {
+        let is_aligned = offset_bytes.is_multiple_of(COMPONENT_BYTES) && stride_bytes.is_multiple_of(COMPONENT_BYTES);
+        let is_within = offset_bytes < buffer.bytes() && stride_bytes <= MAX_STRIDE_BYTES;
+        let slot = self.streams.get_mut(location as usize).filter(|_| is_vertex_buffer && is_aligned && is_within);
+        let Some(slot) = slot else {
             let problem = format!("cannot be vertex input {location} at {offset_bytes}, stride {stride_bytes}");
             return self.encoder.fail(buffer.0.range(problem));
-        }
+        };
+        *slot = Some(Stream { buffer: buffer.0.raw, offset_bytes, stride_bytes, is_stale: true });
         self.encoder.keep(&buffer.0);
-        let device = &self.encoder.gpu().context().device;
-        let (buffers, offsets, strides) = ([buffer.0.raw], [offset_bytes], [stride_bytes]);
-        let command_buffer = self.encoder.command_buffer;
-        // SAFETY: usage, offset, location and stride were checked; the buffer is kept alive.
-        unsafe { device.cmd_bind_vertex_buffers2(command_buffer, location, &buffers, &offsets, None, Some(&strides)) };
-        self.streams |= 1 << location;
     }
 
     /// Binds 32-bit indices that start at `offset_bytes`, a multiple of 4.
     pub fn indices(&mut self, buffer: &Buffer, offset_bytes: u64) {
         let is_index_buffer = buffer.0.usage.contains(vk::BufferUsageFlags::INDEX_BUFFER);
-        if !is_index_buffer || offset_bytes >= buffer.bytes() || !offset_bytes.is_multiple_of(4) {
+        if !is_index_buffer || offset_bytes >= buffer.bytes() || !offset_bytes.is_multiple_of(INDEX_BYTES) {
             return self.encoder.fail(buffer.0.range(format!("cannot be indices at {offset_bytes}")));
         }
         self.encoder.keep(&buffer.0);
@@ -215,7 +243,7 @@ impl<'e> RenderPass<'e> {
         let (command_buffer, kind) = (self.encoder.command_buffer, vk::IndexType::UINT32);
         // SAFETY: usage, offset and alignment were checked; the buffer is kept alive.
         unsafe { device.cmd_bind_index_buffer(command_buffer, buffer.0.raw, offset_bytes, kind) };
-        self.has_indices = true;
+        self.index_count = Some((buffer.bytes() - offset_bytes) / INDEX_BYTES);
     }
 
     /// Sets the push constants; for the draws of every pipeline until the next call.
@@ -232,27 +260,29 @@ impl<'e> RenderPass<'e> {
         unsafe { device.cmd_set_front_face(self.encoder.command_buffer, front) };
     }
 
-    /// Draws indexed triangles, or what the pipeline's topology says.
+    /// Draws indexed triangles, or what the pipeline's topology says. All indices drawn lie in the bound range; what
+    /// they say may be anything.
     pub fn draw_indexed(&mut self, index_count: u32, instances: u32, first_index: u32, first_instance: u32) {
-        let Some(pipeline) = self.ready(true) else { return };
+        let Some(pipeline) = self.ready(Some(u64::from(first_index) + u64::from(index_count))) else { return };
         let device = &self.encoder.gpu().context().device;
         let command_buffer = self.encoder.command_buffer;
-        // SAFETY: all that the pipeline needs is bound; robust access bounds indices and vertices.
+        // SAFETY: all that the pipeline needs is bound, the indices among it; robust access bounds what they point to.
         unsafe { device.cmd_draw_indexed(command_buffer, index_count, instances, first_index, 0, first_instance) };
         self.encoder.count(u64::from(instances), triangles(pipeline.topology, index_count));
     }
 
     /// Draws vertices in order.
     pub fn draw(&mut self, vertices: u32, instances: u32) {
-        let Some(pipeline) = self.ready(false) else { return };
+        let Some(pipeline) = self.ready(None) else { return };
         let device = &self.encoder.gpu().context().device;
         // SAFETY: all that the pipeline needs is bound; robust access bounds vertices.
         unsafe { device.cmd_draw(self.encoder.command_buffer, vertices, instances, 0, 0) };
         self.encoder.count(u64::from(instances), triangles(pipeline.topology, vertices));
     }
 
-    fn ready(&mut self, is_indexed: bool) -> Option<Arc<PipelineInner>> {
-        match self.check_and_flush(is_indexed) {
+    /// `index_end` is the end of the indices that an indexed draw reads.
+    fn ready(&mut self, index_end: Option<u64>) -> Option<Arc<PipelineInner>> {
+        match self.check_and_flush(index_end) {
             Ok(pipeline) => Some(pipeline),
             Err(problem) => {
                 self.encoder.fail(problem);
@@ -261,14 +291,30 @@ impl<'e> RenderPass<'e> {
         }
     }
 
-    fn check_and_flush(&mut self, is_indexed: bool) -> Result<Arc<PipelineInner>, GpuError> {
+    fn check_and_flush(&mut self, index_end: Option<u64>) -> Result<Arc<PipelineInner>, GpuError> {
         let pipeline = self.bound.flush(self.encoder)?;
-        let inputs = pipeline.interface.inputs;
-        if let Some(input) = inputs.iter().find(|input| self.streams & (1 << input.location) == 0) {
-            return Err(problem(&pipeline, format!("vertex input {} '{}' is not bound", input.location, input.name)));
+        for input in pipeline.interface.inputs {
+            let wrong =
+                |what: &str| problem(&pipeline, format!("vertex input {} '{}' {what}", input.location, input.name));
+            let bound = self.streams.get_mut(input.location as usize).and_then(Option::as_mut);
+            let stream = bound.ok_or_else(|| wrong("is not bound"))?;
+            let (stride, value) = (stream.stride_bytes, vertex_bytes(input.format));
+            if stride != 0 && stride < value {
+                return Err(wrong(&format!("has {value} bytes and its stream a stride of {stride}")));
+            }
+            if std::mem::take(&mut stream.is_stale) {
+                let device = &self.encoder.gpu().context().device;
+                let (buffers, offsets, strides) = ([stream.buffer], [stream.offset_bytes], [stride]);
+                let (to, at) = (self.encoder.command_buffer, input.location);
+                // SAFETY: usage, offset, location and stride were checked; the buffer is kept alive.
+                unsafe { device.cmd_bind_vertex_buffers2(to, at, &buffers, &offsets, None, Some(&strides)) };
+            }
         }
-        if is_indexed && !self.has_indices {
-            return Err(problem(&pipeline, "no indices are bound".to_owned()));
+        if let Some(end) = index_end {
+            let bound = self.index_count.ok_or_else(|| problem(&pipeline, "no indices are bound".to_owned()))?;
+            if end > bound {
+                return Err(problem(&pipeline, format!("{end} indices are drawn and {bound} are bound")));
+            }
         }
         Ok(pipeline)
     }
@@ -308,7 +354,8 @@ impl<'e> ComputePass<'e> {
         self.bound.push(values);
     }
 
-    /// Runs that many workgroups in x, y and z. Dispatches of one pass may overlap; see [`ComputePass::barrier`].
+    /// Runs that many workgroups in x, y and z. Dispatches of one pass may overlap: what one
+    /// reads of another's buffers belongs in a pass of its own. An image that bound groups use in two ways fails.
     pub fn dispatch(&mut self, workgroups: [u32; 3]) {
         let pipeline = match self.bound.flush(self.encoder) {
             Ok(pipeline) => pipeline,
@@ -324,10 +371,5 @@ impl<'e> ComputePass<'e> {
         // SAFETY: all that the pipeline needs is bound; the counts are within the limits.
         unsafe { device.cmd_dispatch(self.encoder.command_buffer, x, y, z) };
         self.encoder.count(0, 0);
-    }
-
-    /// Later dispatches of this pass see what earlier ones wrote.
-    pub fn barrier(&mut self) {
-        self.encoder.compute_barrier();
     }
 }

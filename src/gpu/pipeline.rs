@@ -24,9 +24,7 @@ pub struct GraphicsDesc<'a> {
     pub topology: vk::PrimitiveTopology,
     /// Samples per texel of the targets.
     pub samples: u32,
-    /// Alpha of the first colour becomes the coverage of samples.
-    pub alpha_to_coverage: bool,
-    /// Colour targets in order.
+    /// Colour targets in order, with the same blending and channels.
     pub color: &'a [ColorState],
     /// Depth target.
     pub depth: Option<DepthState>,
@@ -68,21 +66,15 @@ pub struct BlendState {
 }
 
 impl BlendState {
-    /// Over, for straight alpha (Porter and Duff 1984, "Compositing digital images").
-    pub const OVER: Self = Self::over(vk::BlendFactor::SRC_ALPHA);
-    /// Over, for colour already multiplied by alpha.
-    pub const PREMULTIPLIED_OVER: Self = Self::over(vk::BlendFactor::ONE);
-
-    const fn over(src_color: vk::BlendFactor) -> Self {
-        Self {
-            src_color,
-            dst_color: vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
-            color_op: vk::BlendOp::ADD,
-            src_alpha: vk::BlendFactor::ONE,
-            dst_alpha: vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
-            alpha_op: vk::BlendOp::ADD,
-        }
-    }
+    /// Over, for colour already multiplied by alpha (Porter and Duff 1984, "Compositing digital images").
+    pub const PREMULTIPLIED_OVER: Self = Self {
+        src_color: vk::BlendFactor::ONE,
+        dst_color: vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
+        color_op: vk::BlendOp::ADD,
+        src_alpha: vk::BlendFactor::ONE,
+        dst_alpha: vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
+        alpha_op: vk::BlendOp::ADD,
+    };
 }
 
 /// The depth target of a pipeline.
@@ -216,7 +208,6 @@ fn describe_shaders(kind: &str, name: &str, shaders: &[&'static Shader], constan
 
 fn describe_state(desc: &GraphicsDesc<'_>) -> String {
     let mut text = format!("  topology: {:?}\n  samples: {}\n", desc.topology, desc.samples);
-    let _ = writeln!(text, "  alpha to coverage: {}", desc.alpha_to_coverage);
     for (index, color) in desc.color.iter().enumerate() {
         let blend = color.blend.map_or("none".to_owned(), |b| {
             let alpha = format!("{:?} {:?} {:?}", b.src_alpha, b.alpha_op, b.dst_alpha);
@@ -236,6 +227,16 @@ fn vertex_format(format: VertexFormat) -> vk::Format {
         VertexFormat::Vec3 => vk::Format::R32G32B32_SFLOAT,
         VertexFormat::Vec4 => vk::Format::R32G32B32A32_SFLOAT,
         VertexFormat::Uint => vk::Format::R32_UINT,
+    }
+}
+
+/// Size of one value of a vertex stream; all are made of 32-bit components.
+pub(crate) fn vertex_bytes(format: VertexFormat) -> u64 {
+    match format {
+        VertexFormat::Float | VertexFormat::Uint => 4,
+        VertexFormat::Vec2 => 8,
+        VertexFormat::Vec3 => 12,
+        VertexFormat::Vec4 => 16,
     }
 }
 
@@ -260,7 +261,7 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Interface`] for stages that disagree, an unknown constant, or more than 4 sets or 128 push-constant
-    /// bytes; [`GpuError::Unsupported`] for a sample count; [`GpuError::OutOfMemory`]; or the driver's answer.
+    /// bytes; [`GpuError::Unsupported`] for a sample count or unequal colour states; [`GpuError::OutOfMemory`]; or the driver's answer.
     pub fn graphics_pipeline(&self, desc: &GraphicsDesc<'_>) -> Result<Pipeline, GpuError> {
         expect_stage(desc.name, desc.vertex, Stage::Vertex)?;
         let mut shaders = vec![desc.vertex];
@@ -271,6 +272,12 @@ impl Gpu {
         let context = self.context();
         if !context.info.samples.contains(&desc.samples) {
             let problem = format!("{} samples (has {:?})", desc.samples, context.info.samples);
+            return Err(GpuError::Unsupported { name: desc.name.to_owned(), problem });
+        }
+        // Without `independentBlend`, which nothing here needs, all attachments have one state.
+        if desc.color.windows(2).any(|pair| (pair[0].blend, pair[0].write_mask) != (pair[1].blend, pair[1].write_mask))
+        {
+            let problem = "colour targets with unequal blending or channels".to_owned();
             return Err(GpuError::Unsupported { name: desc.name.to_owned(), problem });
         }
         let interface = Interface::merge(desc.name, &shaders)?;
@@ -308,8 +315,7 @@ impl Gpu {
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-            .rasterization_samples(vk::SampleCountFlags::from_raw(desc.samples))
-            .alpha_to_coverage_enable(desc.alpha_to_coverage);
+            .rasterization_samples(vk::SampleCountFlags::from_raw(desc.samples));
         let depth = desc.depth.map_or(vk::PipelineDepthStencilStateCreateInfo::default(), |depth| {
             vk::PipelineDepthStencilStateCreateInfo::default()
                 .depth_test_enable(true)

@@ -42,25 +42,6 @@ impl Gpu {
         let gpu = self.clone();
         Upload { gpu, staging: Vec::new(), used: 0, pending_bytes: 0, copies: Vec::new(), problem: None }
     }
-
-    /// Creates a device buffer with these contents; an empty slice gives one zero value.
-    ///
-    /// # Errors
-    /// As [`Gpu::buffer`] and [`Upload::finish`].
-    pub fn buffer_with<T: bytemuck::NoUninit + bytemuck::Zeroable>(
-        &self,
-        name: &str,
-        usage: vk::BufferUsageFlags,
-        values: &[T],
-    ) -> Result<Buffer, GpuError> {
-        let zero = [T::zeroed()];
-        let bytes: &[u8] = bytemuck::cast_slice(if values.is_empty() { &zero } else { values });
-        let buffer = self.buffer(name, bytes.len() as u64, usage, Memory::Device)?;
-        let mut upload = self.upload();
-        upload.buffer(&buffer, 0, bytes);
-        upload.finish()?;
-        Ok(buffer)
-    }
 }
 
 impl Upload {
@@ -171,12 +152,13 @@ impl Upload {
         }
         let with = |image_use| images.iter().map(|image| (*image, image_use)).collect::<Vec<_>>();
         let mut encoder = self.gpu.encoder("upload")?;
-        encoder.begin_pass("upload", PassKind::Copy, &with(ImageUse::CopyTarget));
-        for copy in &self.copies {
-            self.record(&mut encoder, copy);
+        if encoder.begin_pass("upload", PassKind::Copy, &with(ImageUse::CopyTarget)) {
+            for copy in &self.copies {
+                self.record(&mut encoder, copy);
+            }
+            encoder.end_pass(PassKind::Copy);
+            encoder.transition_all(&with(ImageUse::Sampled))?;
         }
-        encoder.end_pass(PassKind::Copy);
-        encoder.transition_all(&with(ImageUse::Sampled));
         encoder.submit()?.wait(TIMEOUT_MS)?;
         Ok(())
     }

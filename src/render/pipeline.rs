@@ -213,7 +213,6 @@ impl PipelineSpec {
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
             },
             samples: self.samples,
-            alpha_to_coverage: false,
             color: &[ColorState {
                 format: self.color_format,
                 blend: self.blend.then_some(BlendState::PREMULTIPLIED_OVER),

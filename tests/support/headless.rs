@@ -22,22 +22,23 @@ impl Headless {
     }
 }
 
-/// Lends a renderer to `check` and fails when the validation layer says anything, up to the renderer's end. Being
-/// lent, it cannot outlive the look at the messages. Without a device or the layer it fails, too.
+/// Lends a renderer to `check` and fails when the validation layer says anything, up to the end of renderer and device.
+/// Being lent, the renderer cannot outlive the look at the messages. Without a device or the layer it fails, too.
 #[track_caller]
 pub fn headless(check: impl FnOnce(&mut Headless)) {
     let messages = validation_messages(check);
     assert!(messages.is_empty(), "the validation layer says:\n{}", messages.join("\n"));
 }
 
-/// What the validation layer says about `check`.
+/// What the validation layer says about `check` and the end of the device.
 pub fn validation_messages(check: impl FnOnce(&mut Headless)) -> Vec<String> {
     let gpu = Gpu::new(&GpuOptions { validate: true, ..GpuOptions::default() })
         .unwrap_or_else(|error| panic!("{error}; tools/setup installs what the tests need"));
+    let log = gpu.validation_log();
     let renderer = Renderer::with_gpu(gpu.clone()).unwrap_or_else(|error| panic!("{error}"));
     let mut lent = Headless { renderer };
     check(&mut lent);
     drop(lent);
-    gpu.wait_idle().unwrap_or_else(|error| panic!("{error}"));
-    gpu.validation_messages()
+    drop(gpu);
+    log.messages()
 }

@@ -112,3 +112,25 @@ pub(crate) static PAINT_COMP: LazyLock<Shader> = LazyLock::new(|| Shader {
         }",
     )
 });
+
+/// Copies 4x4 texels from one image to another.
+pub(crate) static COPY_COMP: LazyLock<Shader> = LazyLock::new(|| Shader {
+    bindings: &[
+        Binding { set: 0, binding: 0, name: "target", kind: BindingKind::StorageImage },
+        Binding { set: 1, binding: 0, name: "source", kind: BindingKind::Texture },
+    ],
+    workgroup_size: [4, 4, 1],
+    ..shader(
+        "copy.comp",
+        Stage::Compute,
+        "#version 450
+        #extension GL_EXT_samplerless_texture_functions : require
+        layout(local_size_x = 4, local_size_y = 4) in;
+        layout(set = 0, binding = 0, rgba8) uniform writeonly image2D target;
+        layout(set = 1, binding = 0) uniform texture2D source;
+        void main() {
+            ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+            imageStore(target, at, texelFetch(source, at, 0));
+        }",
+    )
+});
