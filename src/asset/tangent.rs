@@ -168,7 +168,9 @@ pub fn tangent_bytes(primitive: &Primitive) -> (u64, u64) {
 fn most_triangles_around_corner(corners: &Corners) -> usize {
     // Zero has two signs.
     let bits = |numbers: [f32; 3]| numbers.map(|number| (number + 0.0).to_bits());
-    let mut around: HashMap<([u32; 3], [u32; 3], [u32; 2]), usize> = HashMap::new();
+    /// Bits of a position, a normal and a texture coordinate.
+    type Corner = ([u32; 3], [u32; 3], [u32; 2]);
+    let mut around: HashMap<Corner, usize> = HashMap::new();
     for face in 0..corners.num_faces() {
         let places = [0, 1, 2].map(|corner| bits(corners.position(face, corner)));
         if places[0] == places[1] || places[1] == places[2] || places[2] == places[0] {

@@ -6,7 +6,6 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use vair::asset::Asset;
-use vair::gpu::vk;
 use vair::gpu::{format_bytes, level_size, vk};
 use vair::render::{FrameOptions, HdrFormat, Pass, PipelineSpec, Plan, Shot, TextureUse};
 use vair::scene::Scene;

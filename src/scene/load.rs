@@ -267,8 +267,11 @@ fn new_id() -> u64 {
 fn add_missing_tangents(asset: &mut Asset, materials: &[Material], budget: &mut Budget) -> Result<(), AssetError> {
     for (m, mesh) in asset.meshes.iter_mut().enumerate() {
         for (p, primitive) in mesh.primitives.iter_mut().enumerate() {
-            let standard = &materials[primitive.material].standard;
-            let wanted = standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture);
+            let variants = primitive.variant_materials.iter().map(|&(_, material)| material);
+            let wanted = std::iter::once(primitive.material).chain(variants).find_map(|material| {
+                let standard = &materials[material].standard;
+                standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture)
+            });
             let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) else { continue };
             let field = format!("meshes[{m}].primitives[{p}]");
             let (kept_bytes, scratch_bytes) = tangent_bytes(primitive);

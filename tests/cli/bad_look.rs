@@ -23,7 +23,7 @@ fn a_wrong_look_names_its_line() {
     folder.write("look.toml", b"[material.Skin]\n# \xff\n");
     folder.fails(1, ["render", "quad.gltf", "--look", "look.toml"], &["look.toml", "UTF-8"]);
     folder.fails(1, ["render", "quad.gltf", "--look", "missing.toml"], &["missing.toml", "cannot be read"]);
-    folder.fails(1, ["render", "quad.gltf", "--look", "."], &["not a plain file"]);
+    folder.fails(1, ["render", "quad.gltf", "--look", "."], &["a folder, not a file"]);
 }
 
 #[test]
