@@ -13,7 +13,8 @@ use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use vair::gpu::GpuOptions;
+
+use vair::gpu::{DeviceInfo, GpuOptions};
 use vair::render::{FrameOptions, FrameReport, PictureFormat, Renderer};
 use vair::scene::Scene;
 
@@ -105,10 +106,14 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         }
     }
 
-    let messages = renderer.gpu().validation_messages();
+    let info = renderer.gpu().info().clone();
+    // What the end of the device brings up counts, too.
+    let log = renderer.gpu().validation_log();
+    drop(renderer);
+    let messages = log.messages();
     let times = FrameTimes { load_ms, first_ms, frames_ms: &frames_ms };
     if arguments.json {
-        output::print_json(&summary(&renderer, &scene, &path, &options, &report, &times))?;
+        output::print_json(&summary(&info, &messages, &scene, &path, &options, &report, &times))?;
     } else if !to_stdout {
         output::print(&as_text(&path, count, &report, &times))?;
     }
@@ -169,14 +174,14 @@ fn spread(values: &[f64]) -> (f64, f64, f64) {
 }
 
 fn summary(
-    renderer: &Renderer,
+    info: &DeviceInfo,
+    messages: &[String],
     scene: &Scene,
     path: &Path,
     options: &FrameOptions,
     report: &FrameReport,
     times: &FrameTimes,
 ) -> Value {
-    let info = renderer.gpu().info();
     let (min, median, max) = spread(times.frames_ms);
     let passes = report.passes.iter().map(|pass| {
         json!({
@@ -207,7 +212,7 @@ fn summary(
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes() },
         "left_out": left_out.collect::<Vec<_>>(),
         "warnings": scene.asset().warnings,
-        "validation_messages": renderer.gpu().validation_messages(),
+        "validation_messages": messages,
     })
 }
 
