@@ -31,4 +31,5 @@ mod scenes;
 mod shells;
 mod surface;
 mod texture;
+mod turned;
 mod variants;
