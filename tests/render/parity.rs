@@ -124,7 +124,7 @@ impl Random {
 
     fn between(&mut self, low: f32, high: f32, extremes: &[f32]) -> f32 {
         let [bits, choice, which] = self.bits();
-        if choice % 8 == 0 && !extremes.is_empty() {
+        if choice.is_multiple_of(8) && !extremes.is_empty() {
             return extremes[which as usize % extremes.len()];
         }
         low + (high - low) * (bits >> 8) as f32 / (1 << 24) as f32
@@ -137,8 +137,8 @@ impl Random {
     fn direction(&mut self) -> Vec3 {
         let axes = [Vec3::X, Vec3::Y, Vec3::Z];
         let [axis, choice, sign] = self.bits();
-        if choice % 8 == 0 {
-            return axes[axis as usize % 3] * if sign % 2 == 0 { 1.0 } else { -1.0 };
+        if choice.is_multiple_of(8) {
+            return axes[axis as usize % 3] * if sign.is_multiple_of(2) { 1.0 } else { -1.0 };
         }
         let around = self.between(0.0, std::f32::consts::TAU, &[]);
         let z = self.between(-1.0, 1.0, &[1.0 - 1e-6, 1e-6 - 1.0, 1e-8, -1e-8]);
