@@ -2,6 +2,8 @@
 //! layer.
 //!
 //! Needs a Vulkan device and the validation layer; without them these tests fail and say what to install.
+#[path = "../support/glsl.rs"]
+mod glsl;
 #[path = "../support/golden.rs"]
 mod golden;
 #[path = "../support/headless.rs"]
@@ -22,10 +24,12 @@ mod display;
 mod edges;
 mod goldens;
 mod light;
+mod parity;
 mod plans;
 mod planted;
 mod scenes;
 mod shells;
 mod surface;
 mod texture;
+mod turned;
 mod variants;
