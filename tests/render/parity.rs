@@ -314,7 +314,8 @@ fn on_device(cases: &[Case]) -> Vec<Found> {
     let words: Vec<u32> = cases.iter().flat_map(Case::words).collect();
     let bytes = (cases.len() * OUT_WORDS * 4) as u64;
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    let given = gpu.buffer_with("given", storage, &words).unwrap();
+    let given = gpu.buffer("given", size_of_val(&words[..]) as u64, storage, Memory::Upload).unwrap();
+    given.write(0, &words).unwrap();
     let found = gpu.buffer("found", bytes, storage, Memory::Device).unwrap();
     let back = gpu.buffer("back", bytes, vk::BufferUsageFlags::empty(), Memory::Readback).unwrap();
     let pipeline = gpu.compute_pipeline("parity", shader, &[]).unwrap();
