@@ -222,7 +222,6 @@ impl Renderer {
         self.record_shot(encoder, scene, &shot, options, target)
     }
 
-    /// A frame that failed half-way may have left streams and images without their contents: nothing of it is kept.
     fn record_shot(
         &mut self,
         encoder: &mut Encoder,
@@ -231,23 +230,9 @@ impl Renderer {
         options: &FrameOptions,
         target: &Image,
     ) -> Result<(), RenderError> {
-        let outcome = self.try_record_shot(encoder, scene, shot, options, target);
-        if outcome.is_err() {
-            self.resources.forget_scene();
-            self.scene = None;
-        }
-        outcome
-    }
-
-    fn try_record_shot(
-        &mut self,
-        encoder: &mut Encoder,
-        scene: &Scene,
-        shot: &Shot,
-        options: &FrameOptions,
-        target: &Image,
-    ) -> Result<(), RenderError> {
-        if self.scene.replace(scene.id()) != Some(scene.id()) {
+        // Named again only when all is made: a frame that failed half-way may have left streams and images without their
+        // contents, and nothing of it is kept.
+        if self.scene.take() != Some(scene.id()) {
             self.resources.forget_scene();
         }
         if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
@@ -265,6 +250,7 @@ impl Renderer {
         let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
         let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
         frame::record(encoder, &frame);
+        self.scene = Some(scene.id());
         Ok(())
     }
 

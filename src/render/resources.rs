@@ -80,9 +80,7 @@ impl Resources {
         self.prepare_deform_sources(&mut upload, scene, plan)?;
         self.prepare_images(&mut upload, scene, plan)?;
         for spec in &plan.pipelines {
-            if !self.pipelines.contains_key(spec) {
-                self.pipelines.insert(spec.clone(), spec.create(&self.gpu)?);
-            }
+            self.make_pipeline(spec)?;
         }
         for spec in &plan.compute_pipelines {
             if !self.compute_pipelines.contains_key(spec) {

@@ -19,6 +19,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
     let Frame { scene, resources, data, .. } = *frame;
     let plan = &frame.shot.plan;
     let mut bound = None;
+    let mut vertex_inputs = Vec::new();
     for draw in draws {
         let spec = &plan.pipelines[draw.pipeline];
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
@@ -26,6 +27,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
             let (frame, objects) = &data.shared_groups[&draw.pipeline];
             pass.bind(0, frame);
             pass.bind(2, objects);
+            vertex_inputs = inputs(shader(&spec.vertex));
         }
         let instance = &plan.instances[draw.instance];
         let index = (instance.mesh, instance.primitive);
@@ -38,7 +40,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
             DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, true),
         };
         pass.bind(1, material);
-        for input in inputs(shader(&spec.vertex)) {
+        for input in &vertex_inputs {
             let moved = data.deformed.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
             match moved.or_else(|| resources.streams.get(&(index, input.stream))) {
                 Some(stream) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
