@@ -89,9 +89,17 @@ pub mod asset;
 mod error;
 pub mod material;
 pub mod math;
+#[cfg(feature = "measure")]
+pub mod oracle;
+#[cfg(feature = "measure")]
+pub mod profile;
 pub mod render;
+#[cfg(feature = "measure")]
+pub mod report;
 pub mod scene;
 pub mod shader;
+#[cfg(feature = "measure")]
+pub mod verify;
 
 pub use asset::LoadOptions;
 pub use error::Error;

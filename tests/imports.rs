@@ -3,18 +3,28 @@
 use std::path::Path;
 
 /// Every room, and the rooms that it may see.
-const ROOMS: [(&str, &[&str]); 10] = [
+const ROOMS: [(&str, &[&str]); 13] = [
     ("math", &[]),
     ("shader", &["math"]),
     ("asset", &["math"]),
-    ("profile", &["math"]),
     ("gpu", &["math", "shader"]),
-    ("material", &["math", "shader", "asset", "profile"]),
-    ("scene", &["math", "shader", "asset", "profile", "material"]),
-    ("render", &["math", "shader", "asset", "profile", "gpu", "material", "scene"]),
+    ("material", &["math", "shader", "asset"]),
+    ("scene", &["math", "shader", "asset", "material"]),
+    ("render", &["math", "shader", "asset", "gpu", "material", "scene"]),
+    // What judges the renderer. The oracle knows scenes and formulas, and neither device nor renderer.
+    ("oracle", &["math", "asset", "material", "scene"]),
+    ("verify", &["math", "shader", "gpu", "material"]),
+    ("profile", &["math", "gpu", "material", "scene", "render"]),
+    ("report", &["math", "asset", "gpu", "material", "scene", "render", "oracle", "profile"]),
     // The one error for users who want one: made from every room's, seen by none.
-    ("error", &["asset", "gpu", "material", "scene", "render"]),
-    ("cli", &["error", "math", "shader", "asset", "profile", "gpu", "material", "scene", "render"]),
+    ("error", &["asset", "gpu", "material", "scene", "render", "oracle", "verify", "profile", "report"]),
+    (
+        "cli",
+        &[
+            "error", "math", "shader", "asset", "gpu", "material", "scene", "render", "oracle", "verify", "profile",
+            "report",
+        ],
+    ),
 ];
 
 /// The crate's two roots belong to no room.

@@ -1,4 +1,6 @@
 // What every pass of one frame shares. Mirrored to Rust by build.rs.
+#ifndef VAIR_FRAME_GLSL
+#define VAIR_FRAME_GLSL
 
 const uint LIGHT_DIRECTIONAL = 0;
 const uint LIGHT_POINT = 1;
@@ -29,3 +31,5 @@ struct LightSource {
     float _reserved_1;
     float _reserved_2;
 };
+
+#endif

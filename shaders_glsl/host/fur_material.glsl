@@ -1,4 +1,7 @@
 // The fur material of one object. Mirrored to Rust by build.rs.
+#ifndef VAIR_FUR_MATERIAL_GLSL
+#define VAIR_FUR_MATERIAL_GLSL
+#include "standard_material.glsl"
 
 struct FurUniforms {
     vec3 base_color;           // linear RGB factor
@@ -34,3 +37,5 @@ struct FurUniforms {
     TextureTransform spot_transform;
     TextureTransform comb_transform;
 };
+
+#endif

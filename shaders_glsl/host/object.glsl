@@ -1,4 +1,6 @@
 // Where an object stands. Mirrored to Rust by build.rs.
+#ifndef VAIR_OBJECT_GLSL
+#define VAIR_OBJECT_GLSL
 
 struct ObjectUniforms {
     mat4 world_from_object;    // identity for skinned objects: the deform pass already wrote world space
@@ -11,4 +13,8 @@ struct ObjectUniforms {
 
 struct ObjectDraw {
     uint object_index;         // entry of the object list
+    uint shell;                // number of the shell, where every shell is a draw of its own
+    uint vertices_per_shell;   // where the mesh holds its vertices once a shell
 };
+
+#endif

@@ -1,4 +1,6 @@
 // The standard material. Mirrored to Rust by build.rs.
+#ifndef VAIR_STANDARD_MATERIAL_GLSL
+#define VAIR_STANDARD_MATERIAL_GLSL
 
 // One texture: which UV set, and KHR_texture_transform as two rows of a 2x3 matrix.
 struct TextureTransform {
@@ -28,3 +30,5 @@ struct StandardUniforms {
     TextureTransform detail_albedo_transform;
     TextureTransform detail_normal_transform;
 };
+
+#endif

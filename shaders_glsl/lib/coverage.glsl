@@ -1,5 +1,8 @@
 // Opacity to sample coverage. Done in the shader rather than by alpha-to-coverage: the pattern is then the
-// same on every driver, and the alpha channel keeps the coverage of the picture. Needs hash.glsl.
+// same on every driver, and the alpha channel keeps the coverage of the picture.
+#ifndef VAIR_COVERAGE_GLSL
+#define VAIR_COVERAGE_GLSL
+#include "hash.glsl"
 
 // Two numbers in [0, 1) that are fixed to the surface, one pair a cell about as wide as a pixel: an opacity that is met
 // where it exceeds the first keeps its mean, and its grain moves with the surface instead of the screen. The second
@@ -24,3 +27,5 @@ int coverage_mask(float opacity, uint sample_count, float threshold, float order
     uint masks = first == 0u ? 0xfb910u : first == 1u ? 0xfd980u : first == 2u ? 0xfe620u : 0xf7640u;
     return int((masks >> (count * 4u)) & 15u);
 }
+
+#endif

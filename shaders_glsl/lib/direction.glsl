@@ -1,4 +1,6 @@
 // Unit vectors from vectors that may be nothing: normalize(0) is NaN on some devices and poisons the picture.
+#ifndef VAIR_DIRECTION_GLSL
+#define VAIR_DIRECTION_GLSL
 
 vec3 direction_or(vec3 vector, vec3 fallback) {
     float length_squared = dot(vector, vector);
@@ -14,3 +16,5 @@ mat3 direction_frame(vec3 normal) {
     return mat3(vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x),
                 vec3(b, side + normal.y * normal.y * a, -normal.y), normal);
 }
+
+#endif

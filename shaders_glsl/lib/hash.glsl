@@ -1,5 +1,7 @@
 // Integer hashes: the same bits on every device.
 // Source: Jarzynski & Olano 2020, "Hash Functions for GPU Rendering", pcg3d.
+#ifndef VAIR_HASH_GLSL
+#define VAIR_HASH_GLSL
 
 uvec3 hash_pcg3d(uvec3 key) {
     key = key * 1664525u + 1013904223u;
@@ -18,3 +20,5 @@ vec3 hash_cell(ivec3 cell) {
     uvec3 bits = hash_pcg3d(uvec3(cell));
     return vec3(bits >> 8u) * (1.0 / 16777216.0);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // Punctual lights. Source: KHR_lights_punctual, "Range property" and "Inner and outer cone angles".
-// Needs host/frame.glsl.
+#ifndef VAIR_LIGHT_GLSL
+#define VAIR_LIGHT_GLSL
+#include "frame.glsl"
 
 struct LightSample {
     vec3 direction_in_world; // unit vector to the light
@@ -34,3 +36,5 @@ LightSample light_sample(LightSource light, vec3 position_in_world) {
     result.irradiance = light.intensity * falloff;
     return result;
 }
+
+#endif

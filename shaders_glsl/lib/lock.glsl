@@ -1,4 +1,7 @@
-// Locks of strands. Needs hash.glsl.
+// Locks of strands.
+#ifndef VAIR_LOCK_GLSL
+#define VAIR_LOCK_GLSL
+#include "hash.glsl"
 
 // Strand spacings across a lock.
 const float LOCK_SIZE = 9.0;
@@ -32,3 +35,5 @@ vec3 lock_root(vec3 position_in_cells, vec3 normal, float height, float clump, f
     float turn = 12.5663706 * (own_random < 0.5 ? -height : height) + 6.28318531 * own_random;
     return root + curl * height * (cos(turn) * side + sin(turn) * cross(normal, side));
 }
+
+#endif

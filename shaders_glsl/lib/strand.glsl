@@ -1,5 +1,7 @@
 // Where strands stand, how thick they are at a height, and how a strand scatters light.
-// Needs hash.glsl.
+#ifndef VAIR_STRAND_GLSL
+#define VAIR_STRAND_GLSL
+#include "hash.glsl"
 
 // Feature points are jittered by this share of a cell to either side of its middle: over the whole cell, so that no
 // surface, however it cuts the lattice, sees bands of denser or thicker strands.
@@ -160,3 +162,5 @@ vec3 strand_scattering(vec3 color, vec3 normal, vec3 tangent, vec3 to_eye, vec3 
     float colored = returned * strand_lobe(tangent, to_eye, to_light, 1.5 * STRAND_SCALE_TILT, 4.0 * variance);
     return diffuse + facing * (vec3(white) + color * colored);
 }
+
+#endif

@@ -1,5 +1,7 @@
 // Texture coordinates: KHR_texture_transform, and a projection for meshes that have none.
-// Needs host/standard_material.glsl for TextureTransform.
+#ifndef VAIR_UV_GLSL
+#define VAIR_UV_GLSL
+#include "standard_material.glsl"
 
 vec2 uv_transformed(TextureTransform transform, vec2 uv_0, vec2 uv_1) {
     vec3 uv = vec3(transform.uv_set == 0u ? uv_0 : uv_1, 1.0);
@@ -19,3 +21,5 @@ vec2 uv_projected(vec3 position, vec3 normal) {
     if (size.y >= size.z) { return position.xz; }
     return position.xy;
 }
+
+#endif

@@ -21,6 +21,8 @@ layout(constant_id = 9) const bool HAS_BASE_COLOR_MAP = false;
 layout(constant_id = 10) const bool HAS_SPOT_MAP = false;
 layout(constant_id = 11) const bool HAS_LOCKS = false;       // clump or curl
 layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity near by, too, not only far away
+layout(constant_id = 14) const uint SAMPLING = 0;            // 0 slab, 1 point
+layout(constant_id = 15) const uint ALPHA = 0;               // 0 correlated between shells, 1 each shell alone, 2 step
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
@@ -115,6 +117,7 @@ void main() {
         float cells_per_unit = 1.0 / fur.strand_spacing;
         vec3 rest_normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
         vec3 half_segment = (in_steps.x * rest_x + in_steps.y * rest_y) * cells_per_unit;
+        if (SAMPLING == 1u) { half_segment = vec3(0.0); }
         float half_length = length(half_segment);
         float seen_length = min(half_length, STRAND_SEGMENT);
         half_segment *= seen_length / max(half_length, 1e-6);
@@ -128,6 +131,7 @@ void main() {
         float hidden = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, half_length);
         float seen = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, seen_length);
         opacity = 1.0 - (1.0 - opacity) * (hidden / seen);
+        if (ALPHA == 2u) { opacity = field.profile >= threshold ? 1.0 : 0.0; }
         own_random = field.random;
     }
     // Each factor lies in [0, 1], so their product does.

@@ -11,6 +11,7 @@
 #include "uv.glsl"
 
 layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
+layout(constant_id = 16) const uint SHELL_SOURCE = 0;      // 0 instance, 1 draw, 2 vertex
 layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
 layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
 layout(constant_id = 13) const bool HAS_COMB_MAP = false; // only with COMB
@@ -60,6 +61,8 @@ void main() {
     vec3 direction = direction_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
 
     uint shell = uint(gl_InstanceIndex);
+    if (SHELL_SOURCE == 1u) { shell = draw.shell; }
+    if (SHELL_SOURCE == 2u) { shell = uint(gl_VertexIndex) / draw.vertices_per_shell; }
     uint layer = INNER_FIRST ? shell : fur.layers - 1u - shell;
     // The middle of slab [layer / N, (layer + 1) / N].
     float height = (float(layer) + 0.5) / float(fur.layers);

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
-use vair::render::{Background, FrameOptions, HdrFormat, Tonemap};
+use vair::render::{Background, FrameOptions, HdrFormat, Shells, Tonemap};
 use vair::scene::{self, CameraChoice, Scene, SceneError};
 
 /// What to show.
@@ -160,6 +160,7 @@ impl SceneArguments {
                 Some(Layers::Auto) | None => None,
             },
             layer_scale: if self.layers.is_some() { 1.0 } else { self.quality.layer_scale() },
+            shells: Shells::default(),
             msaa: match self.msaa.as_deref() {
                 Some("1") => 1,
                 Some(_) => 4,

@@ -18,7 +18,10 @@ mod stream;
 mod targets;
 mod texture;
 
-pub use options::{Background, FrameOptions, HdrFormat, MAX_LAYERS, Tonemap};
+pub use options::{
+    Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
+    Tonemap,
+};
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};

@@ -36,6 +36,8 @@ pub struct FrameOptions {
     /// Factor on the shells that each material says, > 0; the product is rounded and kept within 1 to 256. Without
     /// effect where `layers` is given.
     pub layer_scale: f32,
+    /// How shells are drawn.
+    pub shells: Shells,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
 }
@@ -55,6 +57,7 @@ impl Default for FrameOptions {
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
             layer_scale: 1.0,
+            shells: Shells::default(),
             msaa: 4,
         }
     }
@@ -101,6 +104,66 @@ impl FrameOptions {
         }
         Ok(())
     }
+}
+
+/// How shells are made and drawn. The default is what vair is for; the others are the ways of other renderers, and ours
+/// without one of its parts, there to be measured against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Shells {
+    /// What a shell knows of the strands.
+    pub sampling: ShellSampling,
+    /// From strands to opacity.
+    pub alpha: ShellAlpha,
+    /// How shells reach the device.
+    pub submission: ShellSubmission,
+    /// Which shell comes first.
+    pub order: ShellOrder,
+}
+
+/// What a shell knows of the strands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ShellSampling {
+    /// All that the view ray meets in the slab that the shell stands for.
+    #[default]
+    Slab,
+    /// What is at one point of it.
+    Point,
+}
+
+/// From strands to opacity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ShellAlpha {
+    /// Edges as wide as a pixel; from afar the mean coverage, with what the shells of one strand have in common.
+    #[default]
+    Correlated,
+    /// The same, but from afar every shell's mean coverage as if it had nothing in common with the next.
+    Independent,
+    /// A strand or nothing.
+    Step,
+}
+
+/// How shells reach the device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ShellSubmission {
+    /// One draw with an instance a shell.
+    #[default]
+    Instanced,
+    /// One draw a shell.
+    Draws,
+    /// One draw of a mesh that holds its vertices once a shell.
+    Duplicated,
+}
+
+/// Which shell comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ShellOrder {
+    /// The outermost: depth tests then reject what it hides. Coats that blend start with the innermost all the same.
+    #[default]
+    OuterFirst,
+    /// The innermost.
+    InnerFirst,
+    /// The innermost, and shells blend over each other whatever the material says.
+    Blended,
 }
 
 /// Tone curve from linear radiance to display light.

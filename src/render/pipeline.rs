@@ -1,7 +1,7 @@
 //! Which pipeline a draw needs: shader permutations, constants and fixed state, decided before the device is
 //! asked. Two draws that need the same are equal here.
 
-use super::options::{FrameOptions, HdrFormat, Tonemap};
+use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap};
 use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
 use crate::material::{AlphaMode, Blend, Fur, Shape, Standard};
@@ -135,7 +135,8 @@ impl PipelineSpec {
 
     /// The pipeline of the shells of `fur` over the surface `standard` of `primitive`.
     pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, options: &FrameOptions) -> Self {
-        let blend = fur.blend == Blend::Blend;
+        let Shells { sampling, alpha, submission, order } = options.shells;
+        let blend = fur.blend == Blend::Blend || order == ShellOrder::Blended;
         let maps = [
             ("HAS_HEIGHT_MAP", fur.height_map.is_some()),
             ("HAS_DISTRIBUTION_MAP", fur.distribution_map.is_some()),
@@ -148,7 +149,7 @@ impl PipelineSpec {
         let combed = fur.comb != Vec2::ZERO || fur.comb_map.is_some();
         let mut constants = vec![("SAMPLE_COUNT", options.msaa)];
         let switches = [
-            ("INNER_FIRST", blend),
+            ("INNER_FIRST", blend || order == ShellOrder::InnerFirst),
             ("BLEND", blend),
             ("KEEP_PARTIAL", fur.blend == Blend::Coverage),
             ("PARABOLOID", fur.shape == Shape::Paraboloid),
@@ -156,6 +157,8 @@ impl PipelineSpec {
             ("PROJECT_UV", has_maps && primitive.vertices.uv_sets.is_empty()),
         ];
         constants.extend(switches.iter().chain(&maps).filter(|(_, holds)| *holds).map(|(name, _)| (*name, 1)));
+        let choices = [("SAMPLING", sampling as u32), ("ALPHA", alpha as u32), ("SHELL_SOURCE", submission as u32)];
+        constants.extend(choices.into_iter().filter(|(_, choice)| *choice != 0));
         Self {
             vertex: permutation("fur.vert", &[("MAPS", has_maps), ("COMB", combed), ("COLOR", color)]),
             fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color)]),

@@ -295,6 +295,8 @@ impl Found {
 fn on_device(cases: &[Case]) -> Vec<Found> {
     let head = format!("#version 450\n#define IN_WORDS {IN_WORDS}u\n#define OUT_WORDS {OUT_WORDS}u\n");
     let source = std::iter::once(head.as_str()).chain(LIBRARY).chain([MAIN]).collect::<Vec<_>>().join("\n");
+    // All of the library is there already.
+    let source = source.lines().filter(|line| !line.starts_with("#include")).collect::<Vec<_>>().join("\n");
     let shader = Shader {
         name: "parity.comp",
         stage: Stage::Compute,

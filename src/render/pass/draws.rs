@@ -6,6 +6,7 @@
 use super::Frame;
 use crate::asset::Topology;
 use crate::gpu::RenderPass;
+use crate::render::options::ShellSubmission;
 use crate::render::pipeline::shader;
 use crate::render::plan::{Draw, DrawKind};
 use crate::render::stream::inputs;
@@ -48,9 +49,18 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
             }
         }
         pass.indices(&resources.indices[&index], 0);
-        pass.push(&ObjectDraw { object_index: draw.instance as u32 });
+        let object = ObjectDraw { object_index: draw.instance as u32, ..Default::default() };
+        pass.push(&object);
         let front = if instance.mirrored { FrontFace::CLOCKWISE } else { FrontFace::COUNTER_CLOCKWISE };
         let count = primitive.indices.len() as u32;
+        if layers > 1 && frame.options.shells.submission == ShellSubmission::Draws {
+            pass.cull(CullModeFlags::NONE, front);
+            for shell in 0..layers {
+                pass.push(&ObjectDraw { shell, ..object });
+                pass.draw_indexed(count, 1, 0, 0);
+            }
+            continue;
+        }
         if double_sided && spec.blend && primitive.topology == Topology::Triangles {
             // What lies behind must be blended first.
             pass.cull(CullModeFlags::FRONT, front);

@@ -1,0 +1,1 @@
+//! Where the time, the fragments and the memory of a frame go.

@@ -1,0 +1,1 @@
+//! Every shader function against its double-precision twin, on the device.
