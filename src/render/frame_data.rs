@@ -1,9 +1,10 @@
 //! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
 
 use super::Shot;
+use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
-use super::plan::{Draw, DrawKind, Plan, fur_maps};
+use super::plan::{Draw, DrawKind, Plan};
 use super::resources::Resources;
 use super::stream::Stream;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
@@ -147,11 +148,12 @@ impl FrameData {
                 offered.push(("InfluenceList", Resource::Buffer(indices)));
                 offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
             }
-            let weights = filled(gpu, "morph weights", storage, &instance.morph_weights)?;
-            if let Some(deltas) = resources.morph_deltas.get(&(index, deform.stream)) {
-                offered.push(("MorphDeltas", Resource::Buffer(deltas)));
-                offered.push(("MorphWeights", Resource::Buffer(&weights)));
-            }
+            let deltas = resources.morph_deltas.get(&(index, deform.stream));
+            let weights = deltas.map(|_| filled(gpu, "morph weights", storage, &instance.morph_weights)).transpose()?;
+            // Without targets nothing is read of either.
+            let rest = &resources.streams[&(index, deform.stream)];
+            offered.push(("MorphDeltas", Resource::Buffer(deltas.unwrap_or(rest))));
+            offered.push(("MorphWeights", Resource::Buffer(weights.as_ref().unwrap_or(rest))));
             let pipeline = resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]);
             self.deform_groups.push(gpu.bind_group(pipeline, 0, "deform", &offered)?);
             self.deformed.insert((deform.instance, deform.stream), target);
