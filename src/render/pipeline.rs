@@ -11,6 +11,9 @@ use ash::vk;
 use glam::Vec2;
 use std::collections::BTreeSet;
 
+/// Descriptor sets that every device has (Vulkan 1.3, "Required Limits", maxBoundDescriptorSets).
+const SET_COUNT: u32 = 4;
+
 /// Depth is 32-bit float, reversed: 1 at the near plane.
 pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
@@ -198,8 +201,13 @@ impl PipelineSpec {
 
     /// Names of its descriptors.
     pub fn bindings(&self) -> BTreeSet<&'static str> {
-        let shaders = [&self.vertex, &self.fragment].map(|name| shader(name));
-        shaders.iter().flat_map(|shader| shader.bindings).map(|binding| binding.name).collect()
+        (0..SET_COUNT).flat_map(|set| self.bindings_of(set)).collect()
+    }
+
+    /// Names of the descriptors of one set. Pipelines that have the same can share a bind group.
+    pub fn bindings_of(&self, set: u32) -> BTreeSet<&'static str> {
+        let bindings = [&self.vertex, &self.fragment].map(|name| shader(name).bindings);
+        bindings.into_iter().flatten().filter(|binding| binding.set == set).map(|binding| binding.name).collect()
     }
 
     /// Names of its vertex inputs.

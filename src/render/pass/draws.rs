@@ -1,11 +1,13 @@
 //! The draws of the opaque, fur and transparent passes: surfaces and shells.
 //!
 //! In: vertex streams, materials, frame data. Out: linear HDR colour (premultiplied alpha) and reversed depth.
-//! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first.
+//! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first. To measure
+//! against, they can be a draw each, or vertices of their own in one draw.
 
 use super::Frame;
 use crate::asset::Topology;
 use crate::gpu::RenderPass;
+use crate::render::frame_data::{FRAME_SET, OBJECT_SET};
 use crate::render::options::ShellSubmission;
 use crate::render::pipeline::shader;
 use crate::render::plan::{Draw, DrawKind};
@@ -25,9 +27,9 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         let spec = &plan.pipelines[draw.pipeline];
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
             pass.pipeline(resources.pipeline(spec));
-            let (frame, objects) = &data.shared_groups[&draw.pipeline];
-            pass.bind(0, frame);
-            pass.bind(2, objects);
+            for set in [FRAME_SET, OBJECT_SET] {
+                pass.bind(set, data.shared_group(set, spec));
+            }
             vertex_inputs = inputs(shader(&spec.vertex));
         }
         let instance = &plan.instances[draw.instance];
