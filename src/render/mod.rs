@@ -6,7 +6,10 @@
 mod frame;
 mod frame_data;
 mod geometry;
+mod left_out;
+mod map;
 mod material;
+mod memory;
 mod options;
 mod pass;
 mod picture;
@@ -18,21 +21,26 @@ mod stream;
 mod targets;
 mod texture;
 
+pub use left_out::LeftOut;
+pub use map::StandIn;
+pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
 };
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
-pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
+pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, TextureUse};
 pub use report::{CoatReport, FrameReport};
 pub use stream::Stream;
+pub use targets::Attachment;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
 use frame_data::FrameData;
 use glam::Vec4;
+use memory::PICTURE_NAME;
 use pass::Frame;
 use resources::Resources;
 use std::path::PathBuf;
@@ -113,6 +121,7 @@ impl Shot {
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
+        options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
@@ -146,9 +155,9 @@ impl Renderer {
     /// On a device that is there already, such as the host's ([`Gpu::from_host`]).
     ///
     /// # Errors
-    /// When the device is out of memory.
+    /// None: nothing is made before a plan asks for it.
     pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
-        Ok(Self { resources: Resources::new(&gpu)?, gpu, targets: None, picture: None, scene: None })
+        Ok(Self { resources: Resources::new(&gpu), gpu, targets: None, picture: None, scene: None })
     }
 
     /// The device.
@@ -182,13 +191,14 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), self.gpu.calls());
         let shot = Shot::new(scene, options)?;
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
         self.record_shot(&mut encoder, scene, &shot, options, &target)?;
         let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
         let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
         if keep_radiance && let Some(targets) = &self.targets {
@@ -205,7 +215,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory());
+        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory(), calls);
         Ok((picture, report))
     }
 
@@ -263,9 +273,9 @@ impl Renderer {
             return Ok(picture);
         }
         Ok(self.gpu.image(&ImageDesc {
-            name: "picture",
+            name: PICTURE_NAME,
             size,
-            format: vk::Format::R8G8B8A8_UNORM,
+            format: PICTURE_FORMAT,
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
