@@ -2,6 +2,7 @@
 
 use super::RenderError;
 use crate::asset::Asset;
+use crate::material::Fur;
 use crate::scene::CameraChoice;
 use glam::Vec3;
 
@@ -67,6 +68,11 @@ impl FrameOptions {
     /// Shells of a coat whose material says `layers`.
     pub fn layers_of_coat(&self, layers: u32) -> u32 {
         self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
+    /// Whether strands of this coat lag behind: they have inertia, and something can move them.
+    pub(super) fn sways(&self, fur: &Fur) -> bool {
+        fur.inertia > 0.0 && self.animation.is_some()
     }
 
     /// Says which option is out of its range or names what the file lacks.

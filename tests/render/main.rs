@@ -30,6 +30,7 @@ mod planted;
 mod scenes;
 mod shells;
 mod surface;
+mod sway;
 mod texture;
 mod turned;
 mod variants;
