@@ -82,10 +82,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let mut frames_ms = Vec::new();
     let mut last = None;
     let progress = progress(count);
-    let at = |offset_s: f64| FrameOptions {
-        time_s: (f64::from(options.time_s) + offset_s) as f32,
-        ..options.clone()
-    };
+    let at = |offset_s: f64| FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
     let sways = |material: &Material| material.fur.as_ref().is_some_and(|fur| fur.inertia > 0.0);
     let sways = scene.materials().iter().any(sways);
     let mut reached = arguments.frames.as_ref().map_or(0, |frames| frames.start);

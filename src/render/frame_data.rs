@@ -107,7 +107,12 @@ impl FrameData {
 }
 
 /// A host-visible buffer with these values; one zero word when there are none, since Vulkan has no empty buffers.
-pub(super) fn filled<T: NoUninit>(gpu: &Gpu, name: &str, usage: vk::BufferUsageFlags, values: &[T]) -> Result<Buffer, GpuError> {
+pub(super) fn filled<T: NoUninit>(
+    gpu: &Gpu,
+    name: &str,
+    usage: vk::BufferUsageFlags,
+    values: &[T],
+) -> Result<Buffer, GpuError> {
     let bytes = (std::mem::size_of_val(values)).max(size_of::<T>()) as u64;
     let buffer = gpu.buffer(name, bytes, usage, Memory::Upload)?;
     buffer.write(0, values)?;

@@ -20,7 +20,8 @@ pub struct FrameOptions {
     pub scene: Option<usize>,
     /// Index of the animation clip; `None` = rest pose.
     pub animation: Option<usize>,
-    /// Seconds into the clip; beyond its end it starts again.
+    /// Seconds into the clip; beyond its end it starts again. Coats with inertia sway where frames follow each other closely
+    /// ([`Renderer::advance`](super::Renderer::advance)).
     pub time_s: f32,
     /// Index of the KHR_materials_variants variant.
     pub variant: Option<usize>,

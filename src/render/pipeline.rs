@@ -147,8 +147,7 @@ impl PipelineSpec {
         let has_maps = maps.iter().any(|(_, has)| *has);
         let color = !primitive.vertices.colors.is_empty();
         let combed = fur.comb != Vec2::ZERO || fur.comb_map.is_some();
-        let vertex_defines =
-            [("MAPS", has_maps), ("COMB", combed), ("SWAY", options.sways(fur)), ("COLOR", color)];
+        let vertex_defines = [("MAPS", has_maps), ("COMB", combed), ("SWAY", options.sways(fur)), ("COLOR", color)];
         let mut constants = vec![("SAMPLE_COUNT", options.msaa)];
         let switches = [
             ("INNER_FIRST", blend || order == ShellOrder::InnerFirst),

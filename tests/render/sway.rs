@@ -7,7 +7,7 @@ use crate::stage::{Stage, at, options, plain};
 use glam::{DVec3, Mat4, Vec3, Vec4};
 use vair::asset::procedural::sphere;
 use vair::asset::{Animation, Channel, Interpolation, Keys, Material, Node, Skin};
-use vair::gpu::{Gpu, GpuOptions, Memory, Resource, vk};
+use vair::gpu::{Gpu, GpuOptions, ImageDesc, Memory, Resource, vk};
 use vair::material::reference::{hash, sway};
 use vair::material::{Fur, Length};
 use vair::render::{FrameOptions, Pass, Picture, Shot};
@@ -78,8 +78,7 @@ impl Strand {
     }
 
     fn error(&self, found: sway::State, expected: sway::State) -> f64 {
-        let difference =
-            sway::State { lag: found.lag - expected.lag, velocity: found.velocity - expected.velocity };
+        let difference = sway::State { lag: found.lag - expected.lag, velocity: found.velocity - expected.velocity };
         difference.energy_norm(self.stiffness())
     }
 }
@@ -218,7 +217,11 @@ fn ode_equilibrium() {
         let root_velocity = wide(strand.moved) / f64::from(strand.dt);
         let lag = -2.0 * f64::from(strand.damping) / strand.stiffness().sqrt() * root_velocity;
         let error = strand.error(found, sway::State { lag, velocity: root_velocity }) / root_velocity.length();
-        if error <= 1e-6 * f64::from(strand.damping).max(1.0) { Ok(()) } else { Err(format!("{error:e} for {strand:?}")) }
+        if error <= 1e-6 * f64::from(strand.damping).max(1.0) {
+            Ok(())
+        } else {
+            Err(format!("{error:e} for {strand:?}"))
+        }
     }));
 }
 
@@ -271,7 +274,11 @@ fn swing(node: usize) -> Animation {
     let times_s = vec![0.0, 1.0 / 3.0, 0.5, 2.0];
     let keys = [0.0, 0.3, 0.15, 0.15].map(|x| Vec3::new(x, 0.0, 0.0)).to_vec();
     let values = Keys::Translation(keys);
-    Animation { name: None, duration_s: 2.0, channels: vec![Channel { node, times_s, interpolation: Interpolation::Linear, values }] }
+    Animation {
+        name: None,
+        duration_s: 2.0,
+        channels: vec![Channel { node, times_s, interpolation: Interpolation::Linear, values }],
+    }
 }
 
 fn coat() -> Fur {
@@ -370,7 +377,10 @@ fn a_swinging_coat_looks_as_the_twin_bends_it() {
                 assert!(count > 3000 && differs * 100 <= count, "frame {frame}: {differs} of {count} pixels differ");
                 still = headless_picture(&unbent, frame);
                 let told = differing(&found, &still);
-                assert!(sway.length() < 0.03 || told * 20 > count, "frame {frame}: {told} pixels tell {sway} from rest");
+                assert!(
+                    sway.length() < 0.03 || told * 20 > count,
+                    "frame {frame}: {told} pixels tell {sway} from rest"
+                );
             }
         }
     });
@@ -386,7 +396,7 @@ fn headless_picture(scene: &Scene, frame: u32) -> Picture {
 fn at_rest_a_coat_with_inertia_is_the_coat_without() {
     let (with, without) = (swinging_ball(false, coat()), swinging_ball(false, Fur { inertia: 0.0, ..coat() }));
     headless(|device| {
-        // The first frame of a clip, a single one within it, a clip's end after 1.5 s of rest, and a picture without a clip.
+        // The first frame of a clip, a single one within it, and a picture without a clip.
         for options in [moment(0.0), moment(0.3), FrameOptions { animation: None, ..moment(0.0) }] {
             let [found, expected] = [&with, &without].map(|scene| device.picture(scene, &options));
             assert!(found.rgba == expected.rgba && found.radiance == expected.radiance);
@@ -419,6 +429,37 @@ fn frames_follow_or_start_from_rest() {
         assert!(sequence(&again, true) == drawn, "the same moment once more is the same picture");
         assert!(sequence(&[0.0, 0.1, 0.2], true) == rest, "a gap of more than 0.1 s starts from rest");
         assert!(sequence(&[0.5], true) == rest, "so does going back");
+    });
+}
+
+#[test]
+fn recorded_frames_follow_each_other_as_rendered_ones_do() {
+    let scene = swinging_ball(false, coat());
+    headless(|device| {
+        let mut rendered = device.picture(&scene, &moment(0.0));
+        for frame in 1..=20 {
+            rendered = device.picture(&scene, &moment(frame as f32 / FPS));
+        }
+        let gpu = device.renderer.gpu().clone();
+        let target = gpu
+            .image(&ImageDesc {
+                name: "host's",
+                size: [128, 128],
+                format: vk::Format::R8G8B8A8_UNORM,
+                mip_levels: 1,
+                samples: 1,
+                usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
+            })
+            .unwrap();
+        // All at once, and nothing is waited for in between.
+        let mut last = None;
+        for frame in 0..=20 {
+            let mut encoder = gpu.encoder("frame").unwrap();
+            device.renderer.record(&mut encoder, &scene, &moment(frame as f32 / FPS), &target).unwrap();
+            last = Some(encoder.submit().unwrap());
+        }
+        last.unwrap().wait(60_000).unwrap();
+        assert!(gpu.read_image(&target).unwrap() == rendered.rgba);
     });
 }
 
