@@ -64,13 +64,13 @@ SwayState sway_over_damped(SwayState state, vec3 root_velocity, float dt, float 
     float half_gap = w * sqrt((zeta - 1.0) * (zeta + 1.0));
     float fast = zeta * w + half_gap;
     float slow = w * w / fast;
-    float slow_decay = exp(-slow * dt);
     float slow_integral = dt * sway_decay_mean(slow * dt);
-    float both_integral = slow_decay * dt * sway_decay_mean(2.0 * half_gap * dt);
+    float both_integral = exp(-slow * dt) * dt * sway_decay_mean(2.0 * half_gap * dt);
 
     vec3 y = state.velocity + slow * state.lag;
     float trail = slow_integral + slow / fast * (slow_integral - both_integral);
-    vec3 lag = slow_decay * state.lag + both_integral * y - trail * root_velocity;
+    // As a change of the old lag, so that a strand that trails steadily does not gather the rounding of many small steps.
+    vec3 lag = state.lag + (both_integral * y - slow * slow_integral * state.lag - trail * root_velocity);
     y = exp(-fast * dt) * y - slow * dt * sway_decay_mean(fast * dt) * root_velocity;
     return SwayState(lag, y - slow * lag);
 }
