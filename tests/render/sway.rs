@@ -216,12 +216,9 @@ fn ode_equilibrium() {
     all_hold(trailing.iter().zip(on_device(&trailing)).map(|(strand, found)| {
         let root_velocity = wide(strand.moved) / f64::from(strand.dt);
         let lag = -2.0 * f64::from(strand.damping) / strand.stiffness().sqrt() * root_velocity;
-        let error = strand.error(found, sway::State { lag, velocity: root_velocity }) / root_velocity.length();
-        if error <= 1e-6 * f64::from(strand.damping).max(1.0) {
-            Ok(())
-        } else {
-            Err(format!("{error:e} for {strand:?}"))
-        }
+        let trailing = sway::State { lag, velocity: root_velocity };
+        let error = strand.error(found, trailing) / trailing.energy_norm(strand.stiffness());
+        if error <= 1e-6 { Ok(()) } else { Err(format!("{error:e} for {strand:?}")) }
     }));
 }
 
