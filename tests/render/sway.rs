@@ -168,8 +168,7 @@ fn ode_exact() {
     let mut worst = (0.0, 0);
     for (index, (strand, found)) in strands.iter().zip(on_device(&strands)).enumerate() {
         let error = strand.error(found, strand.expected()) / (strand.scale() * strand.radians());
-        // Not a number is the worst.
-        if !(error <= worst.0) {
+        if error > worst.0 || error.is_nan() {
             worst = (error, index);
         }
     }
