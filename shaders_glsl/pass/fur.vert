@@ -42,6 +42,9 @@ layout(location = 5) in vec4 color;
 #ifdef COMB
 layout(location = 7) in vec3 shell_side;
 #endif
+#ifdef SWAY
+layout(location = 8) in vec3 sway; // force of the strands' own inertia, of length in [0, 1], world space
+#endif
 
 layout(location = 0) out vec3 position_in_world;
 layout(location = 1) out vec3 root_direction_in_world;
@@ -84,6 +87,9 @@ void main() {
 #endif
 
     vec3 total = fur.force;
+#ifdef SWAY
+    total += sway;
+#endif
 #ifdef COMB
     // The comb lays strands over in the tangent plane; its axes are fixed to the surface and move with it.
     vec3 side = mat3(world_from_object) * shell_side;

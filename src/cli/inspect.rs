@@ -110,6 +110,7 @@ fn tonemap(options: &FrameOptions) -> PipelineSpec {
 fn draws(plan: &Plan, pass: Pass) -> usize {
     match pass {
         Pass::Deform => plan.deforms.len(),
+        Pass::Sway => plan.sways.len(),
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),

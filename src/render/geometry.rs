@@ -20,6 +20,8 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
         Stream::Color => {
             vertices.colors.iter().flat_map(|color| bytemuck::cast::<_, [u8; 16]>(color.to_array())).collect()
         }
+        // Never in a file: the sway pass makes it.
+        Stream::Sway => Vec::new(),
         Stream::ShellDirection => bytemuck::cast_slice(&shell_directions_of_mesh(mesh)[primitive]).to_vec(),
         Stream::ShellSide => {
             let directions = &shell_directions_of_mesh(mesh)[primitive];

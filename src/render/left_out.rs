@@ -51,6 +51,7 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
 fn reason_of_pass(plan: &Plan, pass: Pass) -> &'static str {
     match pass {
         Pass::Deform => "nothing in the scene is skinned or morphed",
+        Pass::Sway => "no animation moves a coat that has inertia",
         Pass::Fur if plan.has_fur() => "every coat blends",
         Pass::Fur => "no triangles have a material with fur",
         Pass::Transparent => "no material blends",

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use crate::asset::{Asset, Primitive, Topology};
-use crate::material::Material;
+use crate::material::{Fur, Material};
 use crate::scene::{CameraChoice, Instance, Scene};
 use glam::Vec3;
 
@@ -20,7 +20,8 @@ pub struct FrameOptions {
     pub scene: Option<usize>,
     /// Index of the animation clip; `None` = rest pose.
     pub animation: Option<usize>,
-    /// Seconds into the clip; beyond its end it starts again.
+    /// Seconds into the clip; beyond its end it starts again. Coats with inertia sway where frames follow each other closely
+    /// ([`Renderer::advance`](super::Renderer::advance)).
     pub time_s: f32,
     /// Index of the KHR_materials_variants variant.
     pub variant: Option<usize>,
@@ -72,6 +73,12 @@ impl FrameOptions {
     /// Shells of a coat whose material says `layers`.
     pub fn layers_of_coat(&self, layers: u32) -> u32 {
         self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
+    /// Whether strands of this coat lag behind: they have inertia, and something can move them.
+    pub(super) fn sways(&self, fur: &Fur) -> bool {
+        let moves = fur.inertia > 0.0 && self.animation.is_some();
+        (moves || self.everything) && self.shells.submission != ShellSubmission::Duplicated
     }
 
     /// Says which option is out of its range or names what the file lacks.
@@ -128,6 +135,9 @@ impl FrameOptions {
             };
             if instance.skin.is_some() || !morph_targets.is_empty() {
                 return wrong("is skinned or morphed, which moves one copy of its vertices");
+            }
+            if fur.inertia > 0.0 && self.animation.is_some() {
+                return wrong("has inertia, which moves one copy of its vertices");
             }
             let layers = self.layers_of_coat(fur.layers) as usize;
             if vertices.positions.len().max(indices.len()).saturating_mul(layers) > u32::MAX as usize {

@@ -146,6 +146,7 @@ impl PipelineSpec {
         let has_maps = !maps.is_empty();
         let color = options.everything || !primitive.vertices.colors.is_empty();
         let combed = options.everything || fur.comb != Vec2::ZERO || fur.comb_map.is_some();
+        let vertex_defines = [("MAPS", has_maps), ("COMB", combed), ("SWAY", options.sways(fur)), ("COLOR", color)];
         let mut constants = vec![("SAMPLE_COUNT", options.msaa)];
         let switches = [
             ("INNER_FIRST", blend || order == ShellOrder::InnerFirst),
@@ -160,7 +161,7 @@ impl PipelineSpec {
         let choices = [("SAMPLING", sampling as u32), ("ALPHA", alpha as u32), ("SHELL_SOURCE", submission as u32)];
         constants.extend(choices.into_iter().filter(|(_, choice)| *choice != 0));
         Self {
-            vertex: permutation("fur.vert", &[("MAPS", has_maps), ("COMB", combed), ("COLOR", color)]),
+            vertex: permutation("fur.vert", &vertex_defines),
             fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color)]),
             constants,
             topology: Topology::Triangles,
@@ -257,6 +258,11 @@ impl ComputeSpec {
             shader: permutation("deform.comp", &[("SKIN", skin), ("MORPH", morph)]),
             constants: vec![("STREAM", stream)],
         }
+    }
+
+    /// The pipeline that lets strands lag behind their roots.
+    pub fn sway() -> Self {
+        Self { shader: "sway.comp".to_owned(), constants: Vec::new() }
     }
 
     /// Makes it.

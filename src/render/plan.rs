@@ -69,11 +69,22 @@ pub struct Deform {
     pub pipeline: usize,
 }
 
+/// A coat of one instance that the sway pass moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sway {
+    /// Index into [`Plan::instances`].
+    pub instance: usize,
+    /// Index into [`Plan::compute_pipelines`].
+    pub pipeline: usize,
+}
+
 /// A pass of the frame, in the order in which they run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Pass {
     /// Skinning and morphing.
     Deform,
+    /// Strands that lag behind their roots.
+    Sway,
     /// Opaque and masked surfaces; always there, since it clears the targets.
     Opaque,
     /// Shells.
@@ -86,12 +97,13 @@ pub enum Pass {
 
 impl Pass {
     /// All, in their order.
-    pub const ALL: [Self; 5] = [Self::Deform, Self::Opaque, Self::Fur, Self::Transparent, Self::Tonemap];
+    pub const ALL: [Self; 6] = [Self::Deform, Self::Sway, Self::Opaque, Self::Fur, Self::Transparent, Self::Tonemap];
 
     /// Name in labels, timings and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Deform => "deform",
+            Self::Sway => "sway",
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
@@ -115,6 +127,8 @@ pub struct Plan {
     pub compute_pipelines: Vec<ComputeSpec>,
     /// Streams to move.
     pub deforms: Vec<Deform>,
+    /// Coats whose strands lag behind.
+    pub sways: Vec<Sway>,
     /// Draws of the opaque pass.
     pub opaque: Vec<Draw>,
     /// Draws of the fur pass.
@@ -172,6 +186,10 @@ impl Plan {
             let spec = PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options);
             self.add_textures(scene, &spec, &fur_maps(fur, &scene.materials()[material].standard));
             self.add_draw(scene, index, spec, DrawKind::Fur { material, layers }, options);
+            if options.sways(fur) {
+                let pipeline = index_of(&mut self.compute_pipelines, ComputeSpec::sway());
+                self.sways.push(Sway { instance: index, pipeline });
+            }
         }
     }
 
@@ -186,7 +204,7 @@ impl Plan {
         let streams = self.streams.entry((instance.mesh, instance.primitive)).or_default();
         for input in inputs(shader(&spec.vertex)) {
             if !has_stream(geometry, input.stream) {
-                self.has_absent_streams = true;
+                self.has_absent_streams |= input.stream != Stream::Sway;
                 continue;
             }
             streams.insert(input.stream);
@@ -275,6 +293,7 @@ impl Plan {
         self.opaque.sort_by_key(|draw| draw.pipeline);
         for (pass, wanted) in [
             (Pass::Deform, !self.deforms.is_empty()),
+            (Pass::Sway, !self.sways.is_empty()),
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),
@@ -297,6 +316,7 @@ pub fn has_stream(primitive: &Primitive, stream: Stream) -> bool {
         Stream::Uv0 => !vertices.uv_sets.is_empty(),
         Stream::Uv1 => vertices.uv_sets.len() > 1,
         Stream::Color => !vertices.colors.is_empty(),
+        Stream::Sway => false,
     }
 }
 

@@ -63,9 +63,9 @@ fn per_frame(scene: &Scene, shot: &Shot) -> PerFrame {
     sizes.extend(skins.iter().map(|skin| scene.asset().skins[*skin].joints.len() as u64 * MATRIX_BYTES));
     let weights = plan.deforms.iter().map(|deform| plan.instances[deform.instance].morph_weights.len() as u64 * 4);
     sizes.extend(weights.filter(|bytes| *bytes > 0));
-    // The deform pass writes its own.
-    let deformed = plan.deforms.len() as u64;
-    PerFrame { buffers: sizes.len() as u64 + deformed, bytes: sizes.iter().sum() }
+    // The deform and sway passes write their own.
+    let moved = (plan.deforms.len() + plan.sways.len()) as u64;
+    PerFrame { buffers: sizes.len() as u64 + moved, bytes: sizes.iter().sum() }
 }
 
 /// Uniform blocks of surfaces, one a material and pipeline.
@@ -114,7 +114,7 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
     let (plan, asset) = (&shot.plan, scene.asset());
     let per_frame = per_frame(scene, &shot);
     let (source_buffers, source_bytes) = deform_sources(scene, plan);
-    let raster = plan.passes.iter().filter(|pass| **pass != Pass::Deform).count() as u64;
+    let raster = plan.passes.iter().filter(|pass| !matches!(pass, Pass::Deform | Pass::Sway)).count() as u64;
     let images = plan.textures.len() + plan.stand_ins.len() + plan.attachments.len() + 1;
     let mipmapped = plan.textures.iter().map(|texture| &asset.images[texture.image]);
     let mipmapped = mipmapped.filter(|image| image.width.max(image.height) > 1).count();
@@ -133,13 +133,14 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
         ("vkCreateImage", images as u64),
         // Level 0 has a view of its own where there are more.
         ("vkCreateImageView", (images + mipmapped) as u64),
-        ("vkCreateBuffer", kept + per_frame.buffers + staging),
+        // What strands remember from frame to frame is a buffer a coat.
+        ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64),
         ("vkCreateSampler", samplers.len() as u64),
         ("vkCmdCopyBuffer", kept),
         ("vkCmdBeginRendering", raster),
         ("vkCmdDrawIndexed", draw_calls(scene, plan)),
         ("vkCmdDraw", 1),
-        ("vkCmdDispatch", plan.deforms.len() as u64),
+        ("vkCmdDispatch", (plan.deforms.len() + plan.sways.len()) as u64),
         ("vkCmdBindVertexBuffers2", inputs as u64),
         ("vkCmdBindIndexBuffer", draws(plan).len() as u64),
     ] {

@@ -33,6 +33,7 @@ mod scenes;
 mod shells;
 mod submission;
 mod surface;
+mod sway;
 mod texture;
 mod turned;
 mod variants;

@@ -44,6 +44,9 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     for deform in &plan.deforms {
         line(format!("  instance {}, {:?}, compute pipeline {}", deform.instance, deform.stream, deform.pipeline));
     }
+    for sway in &plan.sways {
+        line(format!("swaying coat: instance {}, compute pipeline {}", sway.instance, sway.pipeline));
+    }
     line("vertex streams:".to_owned());
     for ((mesh, primitive), streams) in &plan.streams {
         line(format!("  mesh {mesh}.{primitive}: {streams:?}"));

@@ -273,16 +273,17 @@ mod tests {
 
     #[test]
     fn the_arc_keeps_its_length_and_rises_steadily() {
-        for angle in [0.0, 1e-8, 1e-3, 0.3, 1.0, FRAC_PI_2] {
+        for angle in [0.0, 1e-8, 1e-3, 0.3, 1.0, FRAC_PI_2, 1.6, 2.5, PI] {
             let steps = 4000;
-            let (mut length, mut before) = (0.0, arc(0.0, angle));
+            let (mut length, mut before, mut rises) = (0.0, arc(0.0, angle), true);
             assert_eq!(before, [0.0, 0.0], "the root stays where it is");
             for step in 1..=steps {
                 let now = arc(f64::from(step) / f64::from(steps), angle);
-                assert!(now[1] >= before[1], "height falls at angle {angle}");
+                rises &= now[1] >= before[1];
                 length += (now[0] - before[0]).hypot(now[1] - before[1]);
                 before = now;
             }
+            assert_eq!(rises, angle <= FRAC_PI_2, "height at angle {angle}");
             assert!((length - 1.0).abs() < 1e-5, "length {length} at angle {angle}");
         }
     }

@@ -19,7 +19,7 @@ use glam::Mat4;
 
 /// Records draws in their order.
 pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
-    let Frame { scene, resources, data, .. } = *frame;
+    let Frame { scene, resources, motion, data, .. } = *frame;
     let plan = &frame.shot.plan;
     let mut bound = None;
     let mut vertex_inputs = Vec::new();
@@ -44,7 +44,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         };
         pass.bind(1, material);
         for input in &vertex_inputs {
-            let moved = data.deformed.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
+            let moved = motion.streams.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
             match (moved.or_else(|| resources.streams.get(&(index, input.stream))), resources.absent()) {
                 (Some(stream), _) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
                 (None, Some(absent)) => pass.vertices(input.location, absent, input.stream.absent_offset(), 0),
