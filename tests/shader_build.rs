@@ -290,7 +290,8 @@ fn functions_of_the_library_are_found_with_their_flattened_types() {
         .flat_map(|parameter| library.flatten(&parameter.ty, &parameter.name).unwrap())
         .map(|value| (value.path, value.scalar, value.words))
         .collect();
-    let expected = [("lamp.color", "Float", 3), ("lamp.kind", "Uint", 1), ("place", "Float", 3), ("is_near", "Bool", 1)];
+    let expected =
+        [("lamp.color", "Float", 3), ("lamp.kind", "Uint", 1), ("place", "Float", 3), ("is_near", "Bool", 1)];
     assert_eq!(values, expected.map(|(path, scalar, words)| (path.to_owned(), scalar, words)));
     let mut error = |text: &str| library.add("b.glsl", text).unwrap_err();
     assert_eq!(error("\nfloat f(inout vec3 x) {\n}\n"), "2: `inout vec3 x` is not a type and a name");

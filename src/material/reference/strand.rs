@@ -40,7 +40,8 @@ pub fn field(position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -
     nearest
 }
 
-fn segment_distance(point: DVec3, half_segment: DVec3) -> f64 {
+/// Distance of a point from the segment from `-half_segment` to `half_segment`.
+pub fn segment_distance(point: DVec3, half_segment: DVec3) -> f64 {
     let length_squared = half_segment.length_squared();
     let along = if length_squared > 0.0 { (point.dot(half_segment) / length_squared).clamp(-1.0, 1.0) } else { 0.0 };
     (point - along * half_segment).length()
