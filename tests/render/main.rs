@@ -24,7 +24,6 @@ mod display;
 mod edges;
 mod goldens;
 mod light;
-mod parity;
 mod plans;
 mod planted;
 mod scenes;

@@ -1,8 +1,8 @@
 //! Judges `standard.glsl`.
 
 use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS, UNIT};
-use super::super::twin::{Rule, Twin};
-use super::albedo::FIT;
+use super::super::twin::{Given, Rule, Twin};
+use super::albedo::{FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use crate::material::reference::ggx;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(given: &mut super::super::twin::Given<'_>) -> Self {
+    fn new(given: &mut Given<'_>) -> Self {
         Self {
             f0: given.vec3(),
             roughness: given.number(),
@@ -72,6 +72,8 @@ pub(super) const TWINS: &[Twin] = &[
         };
         surface.words()
     })
+    // Errors of E1 and Q add up in the albedo, the largest of what follows from them.
+    .limit(2e-5, WHITE_ROUNDING + FRESNEL_ROUNDING)
     .rule(Rule::Conditioned(4)),
     Twin::new(
         "standard_brdf_times_cosine",
@@ -95,13 +97,6 @@ pub(super) const TWINS: &[Twin] = &[
     .rule(Rule::Conditioned(4)),
     Twin::new("standard_ambient", &[UNIT, ROUGHNESS, UNIT, ALPHA, UNIT, ALPHA, COMPENSATION, UNIT], |given| {
         let surface = Surface::new(given);
-        surface
-            .diffuse
-            .lerp(DVec3::ONE, 0.0)
-            .to_array()
-            .iter()
-            .zip(surface.specular_albedo.to_array())
-            .map(|(diffuse, specular)| specular + diffuse * (1.0 - specular))
-            .collect()
+        (surface.specular_albedo + surface.diffuse * (1.0 - surface.specular_albedo)).to_array().to_vec()
     }),
 ];

@@ -13,6 +13,8 @@ const RADIUS: Domain = Domain::Uniform(0.02, 0.5, &[0.02, 0.5]);
 /// A component of half a view ray's segment, in cells: never longer than what is looked up.
 const SEGMENT: Domain = Domain::Uniform(-0.14, 0.14, &[0.0, 1e-40, 0.14]);
 const VARIANCE: Domain = Domain::Log(0.0065, 28.0, &[0.0065, 28.0]);
+/// 4.95 / 4 times the root of 0.5 * 4 / 2 units in the last place.
+const LOBE_ROUNDING: f64 = 4.95 / 4.0 * 3.453e-4;
 /// A component of a force of at most unit strength.
 const FORCE: Domain = Domain::Uniform(-0.57, 0.57, &[-0.57, 0.0, 1e-40, 1e-7, 0.57]);
 
@@ -73,6 +75,8 @@ pub(super) const TWINS: &[Twin] = &[
         &[UNIT, UNIT, Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1e-40, 1e-7, 0.05, 1.0])],
         |given| vec![strand::light_through_coat(given.number(), given.number(), given.number())],
     ),
+    // The half angle's cosine cancels where the eye looks into the light: 0.5 + 0.5 cos is known to four roundings, and its
+    // root by the root of that. The factor along the fibre is at most 1 / sqrt(2 pi 0.0065) = 4.95.
     Twin::new(
         "strand_lobe",
         &[
@@ -87,6 +91,7 @@ pub(super) const TWINS: &[Twin] = &[
             vec![strand::lobe(tangent, to_eye, to_light, given.number(), given.number())]
         },
     )
+    .limit(2e-5, LOBE_ROUNDING)
     .rule(Rule::Conditioned(4)),
     Twin::new("strand_variance", &[ROUGHNESS], |given| vec![strand::variance(given.number())]),
     Twin::new(
@@ -108,5 +113,7 @@ pub(super) const TWINS: &[Twin] = &[
             [x, y, z].map(channel).to_vec()
         },
     )
+    // A tenth of a lobe and three tenths of one that is twice as wide.
+    .limit(2e-5, (0.1 + 0.3 / 2.0) * LOBE_ROUNDING)
     .rule(Rule::Conditioned(4)),
 ];
