@@ -76,7 +76,7 @@ impl Random {
 
     /// Below `count`, which is at least 1.
     pub(super) fn below(&mut self, count: usize) -> usize {
-        (u64::from(self.bits()[0]) * count as u64 >> 32) as usize
+        ((u64::from(self.bits()[0]) * count as u64) >> 32) as usize
     }
 
     /// In [0, 1).

@@ -2,8 +2,6 @@
 //! layer.
 //!
 //! Needs a Vulkan device and the validation layer; without them these tests fail and say what to install.
-#[path = "../support/glsl.rs"]
-mod glsl;
 #[path = "../support/golden.rs"]
 mod golden;
 #[path = "../support/headless.rs"]

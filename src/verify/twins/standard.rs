@@ -1,7 +1,7 @@
 //! Judges `standard.glsl`.
 
 use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS, UNIT};
-use super::super::twin::{Given, Rule, Twin};
+use super::super::twin::{Given, Twin};
 use super::albedo::{FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use crate::material::reference::ggx;
 use glam::DVec3;
@@ -73,8 +73,7 @@ pub(super) const TWINS: &[Twin] = &[
         surface.words()
     })
     // Errors of E1 and Q add up in the albedo, the largest of what follows from them.
-    .limit(2e-5, WHITE_ROUNDING + FRESNEL_ROUNDING)
-    .rule(Rule::Conditioned(4)),
+    .limit(2e-5, WHITE_ROUNDING + FRESNEL_ROUNDING),
     Twin::new(
         "standard_brdf_times_cosine",
         &[UNIT, ROUGHNESS, UNIT, ALPHA, UNIT, ALPHA, COMPENSATION, UNIT, Domain::Hemisphere, Domain::Hemisphere],
@@ -93,8 +92,7 @@ pub(super) const TWINS: &[Twin] = &[
             };
             vec![channel(0), channel(1), channel(2)]
         },
-    )
-    .rule(Rule::Conditioned(4)),
+    ),
     Twin::new("standard_ambient", &[UNIT, ROUGHNESS, UNIT, ALPHA, UNIT, ALPHA, COMPENSATION, UNIT], |given| {
         let surface = Surface::new(given);
         (surface.specular_albedo + surface.diffuse * (1.0 - surface.specular_albedo)).to_array().to_vec()

@@ -5,6 +5,7 @@ use super::super::twin::{Rule, Twin};
 use super::ULP;
 use crate::material::reference::strand;
 use glam::DVec3;
+use std::f32::consts::FRAC_PI_2;
 
 /// A coordinate in cells.
 pub(super) const PLACE: Domain = Domain::Uniform(-32.0, 32.0, &[-31.0, -0.5, 0.0, 0.5, 31.0]);
@@ -24,7 +25,7 @@ pub(super) const TWINS: &[Twin] = &[
     }),
     // Offsets keep 2^-18 of a cell this far from the origin; profiles measure them in radii, of which the smallest is
     // 0.02: 2 * 2^-18 / 0.02. The shader looks at the eight nearest cells, the twin at all: it misses a strand in one
-    // place of a thousand. Outside of strands nothing reads the answer.
+    // place of five thousand. Outside of strands nothing reads the answer.
     Twin::new("strand_field", &[PLACE, Domain::Direction, RADIUS, SEGMENT], |given| {
         let (position, normal, radius) = (given.vec3(), given.vec3(), given.number());
         // The shader projects the segment onto the surface before it asks.
@@ -33,7 +34,7 @@ pub(super) const TWINS: &[Twin] = &[
     })
     .limit(2e-5, 4e-4)
     .rule(Rule::Stepped(4))
-    .missed(1e-3)
+    .missed(2e-4)
     .used(|result| {
         let is_inside = result[0] > 1e-3;
         result.iter_mut().for_each(|value| *value = if is_inside { *value } else { 0.0 });
@@ -47,7 +48,6 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("strand_unresolved", &[Domain::Log(1e-3, 1e2, &[0.0, 1e-40, 0.75, 2.0, 1e30])], |given| {
         vec![strand::unresolved(given.number())]
     }),
-    // A profile's rounding is divided by the slope.
     Twin::new(
         "strand_opacity",
         &[
@@ -57,19 +57,17 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
         ],
         |given| vec![strand::opacity(given.number(), given.number(), given.number(), given.number())],
-    )
-    .rule(Rule::Conditioned(4)),
+    ),
     Twin::new(
         "strand_arc",
-        &[UNIT, Domain::Uniform(0.0, 1.5708, &[0.0, 1e-40, 1e-8, 1e-3, 1.9999e-3, 2e-3, std::f32::consts::FRAC_PI_2])],
+        &[UNIT, Domain::Uniform(0.0, FRAC_PI_2, &[0.0, 1e-40, 1e-8, 1e-3, 1.9999e-3, 2e-3, FRAC_PI_2])],
         |given| strand::arc(given.number(), given.number()).to_vec(),
     ),
     // Vulkan lets atan be off by 4096 units in the last place.
     Twin::new("strand_bend_angle", &[Domain::Direction, FORCE], |given| {
         vec![strand::bend_angle(given.vec3(), given.vec3())]
     })
-    .limit(4096.0 * ULP, 1e-6)
-    .rule(Rule::Conditioned(4)),
+    .limit(4096.0 * ULP, 1e-6),
     Twin::new(
         "strand_light_through_coat",
         &[UNIT, UNIT, Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1e-40, 1e-7, 0.05, 1.0])],
@@ -91,8 +89,7 @@ pub(super) const TWINS: &[Twin] = &[
             vec![strand::lobe(tangent, to_eye, to_light, given.number(), given.number())]
         },
     )
-    .limit(2e-5, LOBE_ROUNDING)
-    .rule(Rule::Conditioned(4)),
+    .limit(2e-5, LOBE_ROUNDING),
     Twin::new("strand_variance", &[ROUGHNESS], |given| vec![strand::variance(given.number())]),
     Twin::new(
         "strand_scattering",
@@ -114,6 +111,5 @@ pub(super) const TWINS: &[Twin] = &[
         },
     )
     // A tenth of a lobe and three tenths of one that is twice as wide.
-    .limit(2e-5, (0.1 + 0.3 / 2.0) * LOBE_ROUNDING)
-    .rule(Rule::Conditioned(4)),
+    .limit(2e-5, (0.1 + 0.3 / 2.0) * LOBE_ROUNDING),
 ];
