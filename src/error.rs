@@ -5,6 +5,8 @@ use crate::gpu::GpuError;
 use crate::material::MaterialError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
+#[cfg(feature = "measure")]
+use crate::verify::VerifyError;
 
 /// Anything that this crate can fail with. Each message is one line: what, where, and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -25,4 +27,8 @@ pub enum Error {
     /// A picture cannot be made or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The shader functions cannot be judged.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
 }

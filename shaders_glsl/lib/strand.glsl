@@ -27,31 +27,34 @@ struct StrandPath {
     float enough;         // margin from which on a strand fills the pixel; greater ones are this one
 };
 
+// Thinner strands, in cells, are none: their profile would be all rounding.
+const float STRAND_SMALLEST_RADIUS = 1e-3;
+
 struct StrandHit {
     float margin; // how far the profile exceeds the threshold at most; negative: no strand is met
     float place;  // on the path: where the ray enters the first strand, or comes closest to one
     float random; // in [0, 1), one number a strand
 };
 
-// Looks at the strand of one cell. Along the path the profile is concave and the threshold linear, so that their
-// difference has one maximum and, before it, at most one zero.
-void strand_consider(inout StrandHit hit, StrandPath path, ivec3 cell) {
+// What the ray meets of the strand in one cell. Along the path the profile is concave and the threshold linear, so that
+// their difference has one maximum and, before it, at most one zero.
+StrandHit strand_meet(StrandPath path, ivec3 cell) {
     vec3 random = hash_cell(cell);
     vec3 offset = (vec3(cell) - path.middle) + (0.5 - STRAND_JITTER + random * (2.0 * STRAND_JITTER));
     float height = dot(offset, path.normal);
     float reach = height / STRAND_REACH;
     float radius = path.radius * (1.0 - reach * reach);
+    if (radius < STRAND_SMALLEST_RADIUS) { return StrandHit(-1e3, 0.0, 0.0); }
     // The digits that the jitter along x does not use make an independent number.
     float own_random = fract(random.x * 97.0 + random.y * 57.0);
     float full_length = 0.75 + 0.25 * own_random;
-    if (radius < 1e-4) { return; }
 
     vec3 across = offset - height * path.normal;
     float half_length = length(path.half_segment);
     float along = half_length > 1e-6 ? dot(across, path.half_segment) / half_length : 0.0;
     float aside = sqrt(max(dot(across, across) - along * along, 0.0));
     // The profile falls by full_length / radius a cell; where it falls more slowly than the threshold does, the lower
-    // boundary is best.
+    // end is best.
     float fall = path.threshold_rise * radius;
     float reachable = half_length * full_length;
     float best = -sign(path.threshold_rise);
@@ -61,34 +64,31 @@ void strand_consider(inout StrandHit hit, StrandPath path, ivec3 cell) {
     }
     float from_axis = length(vec2(aside, best * half_length - along));
     float margin = full_length * (1.0 - from_axis / radius) - (path.threshold + best * path.threshold_rise);
+    if (margin <= 0.0) { return StrandHit(margin, best, own_random); }
 
-    float place = best;
-    if (margin > 0.0) {
-        // Where the distance from the axis is the radius that the threshold leaves: a quadratic in the place.
-        float left = radius * (1.0 - path.threshold / full_length);
-        float shrink = fall / full_length;
-        float a = half_length * half_length - shrink * shrink;
-        float b = left * shrink - half_length * along;
-        float c = aside * aside + along * along - left * left;
-        float root = sqrt(max(b * b - a * c, 0.0));
-        float q = -(b + (b < 0.0 ? -root : root));
-        // From the maximum towards the entry, the first of the two; the other is the mirrored cone's. None lies before
-        // the entry where the ray comes into the slab within the strand.
-        float to_first = abs(a) > 1e-12 ? (q / a - best) * path.entry : -1.0;
-        float to_second = abs(q) > 1e-12 ? (c / q - best) * path.entry : -1.0;
-        float to_entry = (path.entry - best) * path.entry;
-        if (to_first > -1e-4) { to_entry = min(to_entry, to_first); }
-        if (to_second > -1e-4) { to_entry = min(to_entry, to_second); }
-        place = best + max(to_entry, 0.0) * path.entry;
-        if (hit.margin <= 0.0 || place * path.entry > hit.place * path.entry) {
-            hit.place = place;
-            hit.random = own_random;
-        }
-    } else if (margin > hit.margin) {
-        hit.place = place;
-        hit.random = own_random;
-    }
-    hit.margin = max(hit.margin, margin);
+    // The zero: where the distance from the axis is the radius that the threshold leaves, a quadratic in the place. From
+    // the maximum towards the entry it is the first of the two; the other is the mirrored cone's. None lies before the
+    // entry where the ray comes in within the strand.
+    float left = radius * (1.0 - path.threshold / full_length);
+    float shrink = fall / full_length;
+    float a = half_length * half_length - shrink * shrink;
+    float b = left * shrink - half_length * along;
+    float c = aside * aside + along * along - left * left;
+    float root = sqrt(max(b * b - a * c, 0.0));
+    float q = -(b + (b < 0.0 ? -root : root));
+    float to_first = abs(a) > 1e-12 ? (q / a - best) * path.entry : -1.0;
+    float to_second = abs(q) > 1e-12 ? (c / q - best) * path.entry : -1.0;
+    float to_entry = (path.entry - best) * path.entry;
+    if (to_first > -1e-4) { to_entry = min(to_entry, to_first); }
+    if (to_second > -1e-4) { to_entry = min(to_entry, to_second); }
+    return StrandHit(margin, best + max(to_entry, 0.0) * path.entry, own_random);
+}
+
+// Of two hits the first, or where not both are inside a strand the one with the larger margin; with the larger margin.
+StrandHit strand_first(StrandHit a, StrandHit b, float entry) {
+    bool both = a.margin > 0.0 && b.margin > 0.0;
+    bool is_b = both ? b.place * entry > a.place * entry : b.margin > a.margin;
+    return StrandHit(max(a.margin, b.margin), is_b ? b.place : a.place, is_b ? b.random : a.random);
 }
 
 // Procedural strands: one jittered point per cell of a lattice in the rest pose, so that density does not depend on
@@ -96,12 +96,13 @@ void strand_consider(inout StrandHit hit, StrandPath path, ivec3 cell) {
 // cells along the path from its entry until a strand is met: eight cells hold all strands that can reach a place, and
 // with each face that the path crosses four more come in.
 StrandHit strand_walk(StrandPath path) {
-    StrandHit hit = StrandHit(-1e3, path.entry, 0.0);
+    path.half_segment -= dot(path.half_segment, path.normal) * path.normal;
+    StrandHit hit = StrandHit(-1e3, 0.0, 0.0);
     vec3 start = path.middle + path.entry * path.half_segment - 0.5;
     vec3 way = -2.0 * path.entry * path.half_segment;
     ivec3 corner = ivec3(floor(start));
     for (int index = 0; index < 8; ++index) {
-        strand_consider(hit, path, corner + ivec3(index & 1, (index >> 1) & 1, index >> 2));
+        hit = strand_first(hit, strand_meet(path, corner + ivec3(index & 1, (index >> 1) & 1, index >> 2)), path.entry);
     }
     vec3 steps = 1.0 / max(abs(way), vec3(1e-20));
     vec3 share = start - vec3(corner);
@@ -116,7 +117,8 @@ StrandHit strand_walk(StrandPath path) {
         next += vec3(axis) * steps;
         ivec3 new_corner = ahead ? corner + axis : corner;
         for (int index = 0; index < 4; ++index) {
-            strand_consider(hit, path, new_corner + axis.yzx * (index & 1) + axis.zxy * (index >> 1));
+            ivec3 cell = new_corner + axis.yzx * (index & 1) + axis.zxy * (index >> 1);
+            hit = strand_first(hit, strand_meet(path, cell), path.entry);
         }
     }
     hit.margin = min(hit.margin, path.enough);
@@ -212,9 +214,12 @@ float strand_lobe(vec3 tangent, vec3 to_eye, vec3 to_light, float shift, float v
     float along = exp(-0.5 * deviation * deviation / variance) * inversesqrt(6.28318531 * variance);
     vec3 eye_across = to_eye - sine_eye * tangent;
     vec3 light_across = to_light - sine_light * tangent;
-    float lengths = dot(eye_across, eye_across) * dot(light_across, light_across);
-    float cosine = lengths > 1e-12 ? dot(eye_across, light_across) * inversesqrt(lengths) : 1.0;
-    return along * 0.25 * sqrt(max(0.5 + 0.5 * cosine, 0.0));
+    float eye_squared = dot(eye_across, eye_across);
+    float light_squared = dot(light_across, light_across);
+    // The half angle's cosine as half the length of a sum: 0.5 + 0.5 cos would cancel where the eye looks into the light.
+    vec3 sum = eye_across * inversesqrt(max(eye_squared, 1e-30)) + light_across * inversesqrt(max(light_squared, 1e-30));
+    float half_cosine = eye_squared * light_squared > 1e-12 ? 0.5 * length(sum) : 1.0;
+    return along * 0.25 * half_cosine;
 }
 
 // Variance of a lobe from the longitudinal roughness. Source: Chiang et al. 2016, "A Practical and Controllable

@@ -13,6 +13,7 @@ mod render;
 mod scene;
 mod sequence;
 mod values;
+mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::panic::{self, AssertUnwindSafe};
@@ -35,6 +36,8 @@ enum Command {
     Render(Box<render::RenderArguments>),
     /// Says what a frame will do: passes, pipelines, textures, memory, and what is left out and why.
     Inspect(Box<inspect::InspectArguments>),
+    /// Evaluates every shader function on the device and compares it with its double-precision twin.
+    Verify(verify::VerifyArguments),
     /// Lists the Vulkan devices, and why one is refused.
     Devices(devices::DevicesArguments),
     /// Lists the material presets and their parameters.
@@ -59,6 +62,7 @@ fn parse_and_run() -> ExitCode {
         Ok(Arguments { command: Some(command) }) => match command {
             Command::Render(arguments) => render::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Verify(arguments) => verify::run(&arguments),
             Command::Devices(arguments) => devices::run(&arguments),
             Command::Presets(arguments) => presets::run(&arguments),
         },

@@ -77,3 +77,21 @@ fn devices_and_presets() {
         assert!(!folder.run(arguments).success().text().is_empty());
     }
 }
+
+#[test]
+fn verify() {
+    let folder = Folder::new();
+    let report = folder.run(["verify", "--only", "schlick_weight", "--json", "--validate"]).success().json();
+    has(
+        &report,
+        &["/device", "/seconds", "/pass", "/functions/0/name", "/functions/0/max_rel", "/functions/0/p999_rel"],
+    );
+    has(&report, &["/functions/0/limit", "/functions/0/limit_abs", "/functions/0/worst/inputs/v_dot_h/0"]);
+    assert_eq!((&report["pass"], &report["functions"][0]["nonfinite"]), (&true.into(), &0.into()));
+    assert!(report["functions"][0]["samples"].as_u64().unwrap() > 1 << 18);
+    assert!(
+        folder.run(["verify", "--only", "schlick"]).success().text().contains("1 of 1 functions meet their limits")
+    );
+    assert!(folder.run(["verify", "--list"]).success().text().lines().any(|line| line == "strand_lobe"));
+    folder.fails(1, ["verify", "--only", "schlik"], &["schlik", "schlick", "--list"]);
+}

@@ -26,7 +26,6 @@ mod everything;
 mod goldens;
 mod lean;
 mod light;
-mod parity;
 mod plans;
 mod planted;
 mod scenes;

@@ -8,6 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub const JITTER: f64 = 0.5;
 /// Farthest distance, in cells, of a strand's point from the surface.
 pub const REACH: f64 = 0.5;
+/// Thinner strands, in cells, are none.
+pub const SMALLEST_RADIUS: f64 = 1e-3;
 
 /// A strand of the lattice, as it meets a place on the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,24 +31,25 @@ impl Strand {
     }
 }
 
-/// All strands within `reach` cells of a place, and some beyond. `position` in cells, `normal` a unit vector, `radius` in
-/// cells.
+/// The strand of a cell, seen from a place on the surface; `position` in cells, `normal` a unit vector, `radius` in cells.
+/// None where its point is too far off the surface.
+pub fn of_cell(cell: DVec3, position: DVec3, normal: DVec3, radius: f64) -> Option<Strand> {
+    let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
+    let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - position;
+    let height = offset.dot(normal);
+    let radius = radius * (1.0 - (height / REACH).powi(2));
+    let random = (random[0] * 97.0 + random[1] * 57.0).fract();
+    let (across, full_length) = (offset - height * normal, 0.75 + 0.25 * random);
+    (radius >= SMALLEST_RADIUS).then_some(Strand { across, radius, full_length, random })
+}
+
+/// All strands within `reach` cells of a place, and some beyond.
 pub fn around(position: DVec3, normal: DVec3, radius: f64, reach: f64) -> impl Iterator<Item = Strand> {
     let home = position.floor();
     let cells = (reach + JITTER + REACH).ceil() as i32;
     let steps = move || (-cells..=cells).map(f64::from);
-    steps().flat_map(move |x| steps().flat_map(move |y| steps().map(move |z| DVec3::new(x, y, z)))).filter_map(
-        move |step| {
-            let cell = home + step;
-            let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
-            let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - position;
-            let height = offset.dot(normal);
-            let shrink = 1.0 - (height / REACH).powi(2);
-            let random = (random[0] * 97.0 + random[1] * 57.0).fract();
-            let (across, full_length) = (offset - height * normal, 0.75 + 0.25 * random);
-            (radius * shrink > 1e-4).then_some(Strand { across, radius: radius * shrink, full_length, random })
-        },
-    )
+    let steps = steps().flat_map(move |x| steps().flat_map(move |y| steps().map(move |z| DVec3::new(x, y, z))));
+    steps.filter_map(move |step| of_cell(home + step, position, normal, radius))
 }
 
 /// Profile and random number of the strongest procedural strand at a place. Looks at every cell that can matter.
@@ -88,24 +91,41 @@ pub struct Hit {
     pub random: f64,
 }
 
-/// What the ray meets first (where it meets nothing, what it comes closest to), and the largest margin of all strands, at
-/// most `enough`; found by halving, strand by strand.
+/// No strand.
+const NONE: Hit = Hit { margin: -1e3, place: 0.0, random: 0.0 };
+
+/// What the ray meets of one strand, found by halving.
+pub fn meet(path: &Path, strand: &Strand) -> Hit {
+    let distance = |place: f64| (strand.across - place * path.half_segment).length();
+    let margin = |place: f64| strand.profile(distance(place)) - path.threshold - place * path.threshold_rise;
+    let best = maximum(&margin);
+    let largest = margin(best);
+    let place = if largest > 0.0 { first_inside(&margin, path.entry, best) } else { best };
+    Hit { margin: largest, place, random: strand.random }
+}
+
+/// What the ray meets of the strand in one cell.
+pub fn meet_cell(path: &Path, cell: DVec3) -> Hit {
+    of_cell(cell, path.middle, path.normal, path.radius).map_or(NONE, |strand| meet(path, &strand))
+}
+
+/// Of two hits the first, or where neither is inside a strand the nearer; with the larger margin.
+pub fn first(a: Hit, b: Hit, entry: f64) -> Hit {
+    let is_b = match (a.margin > 0.0, b.margin > 0.0) {
+        (true, true) => b.place * entry > a.place * entry,
+        _ => b.margin > a.margin,
+    };
+    Hit { margin: a.margin.max(b.margin), ..if is_b { b } else { a } }
+}
+
+/// What the ray meets first, or comes closest to, and the largest margin of all strands, at most `enough`. The segment is
+/// taken across the strands.
 pub fn walk(path: &Path) -> Hit {
-    let mut all = Vec::new();
-    for strand in around(path.middle, path.normal, path.radius, path.half_segment.length() + 0.5) {
-        let distance = |place: f64| (strand.across - place * path.half_segment).length();
-        let margin = |place: f64| strand.profile(distance(place)) - path.threshold - place * path.threshold_rise;
-        let best = maximum(&margin);
-        let largest = margin(best);
-        let place = if largest > 0.0 { first_inside(&margin, path.entry, best) } else { best };
-        all.push(Hit { margin: largest, place, random: strand.random });
-    }
-    let inside = all.iter().filter(|hit| hit.margin > 0.0);
-    let first = inside.max_by(|a, b| (a.place * path.entry).total_cmp(&(b.place * path.entry)));
-    let nearest = all.iter().max_by(|a, b| a.margin.total_cmp(&b.margin));
-    let none = Hit { margin: -1e3, place: path.entry, random: 0.0 };
-    let margin = nearest.map_or(none.margin, |hit| hit.margin.min(path.enough));
-    Hit { margin, ..first.or(nearest).copied().unwrap_or(none) }
+    let half_segment = path.half_segment - path.half_segment.dot(path.normal) * path.normal;
+    let path = &Path { half_segment, ..*path };
+    let strands = around(path.middle, path.normal, path.radius, half_segment.length() + 0.5);
+    let hit = strands.fold(NONE, |hit, strand| first(hit, meet(path, &strand), path.entry));
+    Hit { margin: hit.margin.min(path.enough), ..hit }
 }
 
 /// Place in [-1, 1] of the maximum of a concave function.

@@ -31,14 +31,22 @@ pub fn step(state: State, moved: DVec3, dt: f64, stiffness: f64, damping: f64) -
     if !(dt > 0.0 && dt <= LONGEST_STEP_S) {
         return State::default();
     }
-    let root_velocity = moved / dt;
-    let w = stiffness.sqrt();
-    // Around the particular solution the equation is the free one.
+    let next = free_or_driven(state, moved / dt, dt, stiffness.sqrt(), damping);
+    if next.is_finite() { next } else { State::default() }
+}
+
+/// The same by angular frequency and the root's velocity, without those limits. Around the particular solution the
+/// equation is the free one.
+pub fn free_or_driven(state: State, root_velocity: DVec3, dt: f64, w: f64, damping: f64) -> State {
     let trail = -2.0 * damping / w * root_velocity;
     let free = State { lag: state.lag - trail, velocity: state.velocity - root_velocity };
     let free = unforced(free, dt, w, damping);
-    let next = State { lag: free.lag + trail, velocity: free.velocity + root_velocity };
-    if next.is_finite() { next } else { State::default() }
+    State { lag: free.lag + trail, velocity: free.velocity + root_velocity }
+}
+
+/// Mean of exp over [-x, 0].
+pub fn decay_mean(x: f64) -> f64 {
+    if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 }
 }
 
 /// x'' + 2 zeta w x' + w^2 x = 0, from the roots of r^2 + 2 zeta w r + w^2 = 0.
