@@ -3,6 +3,8 @@
 use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
+#[cfg(feature = "measure")]
+use crate::profile::ProfileError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
 
@@ -25,4 +27,8 @@ pub enum Error {
     /// A picture cannot be made or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A frame cannot be profiled.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
 }

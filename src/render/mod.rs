@@ -3,6 +3,8 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod count;
+mod file;
 mod frame;
 mod frame_data;
 mod geometry;
@@ -18,6 +20,8 @@ mod stream;
 mod targets;
 mod texture;
 
+pub use count::PassFragments;
+pub use file::write_file;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
@@ -25,7 +29,7 @@ pub use options::{
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
-pub use report::{CoatReport, FrameReport};
+pub use report::{CoatReport, CpuPhases, FrameReport};
 pub use stream::Stream;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
@@ -34,6 +38,7 @@ use ash::vk;
 use frame_data::FrameData;
 use glam::Vec4;
 use pass::Frame;
+use pass::tonemap::Display;
 use resources::Resources;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -124,6 +129,12 @@ impl Shot {
     }
 }
 
+/// What one frame reads, made and not yet recorded.
+struct Prepared {
+    data: FrameData,
+    tonemap: PipelineSpec,
+}
+
 /// Renders scenes on one device. What a scene keeps there stays until another scene is rendered.
 pub struct Renderer {
     gpu: Gpu,
@@ -182,13 +193,19 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let start = Instant::now();
+        let (mut cpu, mut clock) = (CpuPhases::default(), Instant::now());
         let shot = Shot::new(scene, options)?;
+        cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
-        self.record_shot(&mut encoder, scene, &shot, options, &target)?;
-        let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
-        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        cpu.prepare_ms = lap_ms(&mut clock);
+        self.record_prepared(&mut encoder, scene, &shot, options, &prepared, &target)?;
+        cpu.record_ms = lap_ms(&mut clock);
+        let submission = encoder.submit()?;
+        cpu.submit_ms = lap_ms(&mut clock);
+        let times = submission.wait(FRAME_TIMEOUT_MS)?;
+        cpu.wait_ms = lap_ms(&mut clock);
 
         let mut radiance = Vec::new();
         if keep_radiance && let Some(targets) = &self.targets {
@@ -205,7 +222,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory());
+        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory());
         Ok((picture, report))
     }
 
@@ -222,38 +239,56 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
-        self.record_shot(encoder, scene, &shot, options, target)
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        self.record_prepared(encoder, scene, &shot, options, &prepared, target)
     }
 
-    fn record_shot(
+    /// Makes what the shot needs and is not there yet.
+    fn prepare(
         &mut self,
-        encoder: &mut Encoder,
         scene: &Scene,
         shot: &Shot,
         options: &FrameOptions,
-        target: &Image,
-    ) -> Result<(), RenderError> {
+        target_format: vk::Format,
+    ) -> Result<Prepared, RenderError> {
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
+            // The old ones go first: two sets need not fit at once.
+            self.targets = None;
+        }
+        if self.targets.is_none() {
+            self.targets = Some(Targets::new(&self.gpu, options)?);
+        }
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
+        self.resources.make_pipeline(&tonemap)?;
+        Ok(Prepared { data: self.prepare_scene(scene, shot)?, tonemap })
+    }
+
+    /// Makes what the scene keeps on the device, and this frame's values.
+    fn prepare_scene(&mut self, scene: &Scene, shot: &Shot) -> Result<FrameData, RenderError> {
         // Named again only when all is made: a frame that failed half-way may have left streams and images without their
         // contents, and nothing of it is kept.
         if self.scene.take() != Some(scene.id()) {
             self.resources.forget_scene();
         }
-        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
-            // The old ones go first: two sets need not fit at once.
-            self.targets = None;
-        }
-        let targets = match self.targets.take() {
-            Some(targets) => targets,
-            None => Targets::new(&self.gpu, options)?,
-        };
-        let targets = self.targets.insert(targets);
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
         self.resources.prepare(scene, &shot.plan)?;
-        self.resources.make_pipeline(&tonemap)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
-        let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
-        frame::record(encoder, &frame);
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot)?;
         self.scene = Some(scene.id());
+        Ok(data)
+    }
+
+    fn record_prepared(
+        &self,
+        encoder: &mut Encoder,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        Prepared { data, tonemap }: &Prepared,
+        target: &Image,
+    ) -> Result<(), RenderError> {
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let display = Display::new(&self.gpu, self.resources.pipeline(tonemap), targets.hdr(), target)?;
+        let frame = Frame { scene, shot, options, resources: &self.resources, data };
+        frame::record(encoder, &frame, targets, &display);
         Ok(())
     }
 
@@ -271,6 +306,14 @@ impl Renderer {
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
         })?)
     }
+}
+
+/// Milliseconds since `clock`, which starts anew.
+fn lap_ms(clock: &mut Instant) -> f64 {
+    let now = Instant::now();
+    let ms = now.duration_since(*clock).as_secs_f64() * 1e3;
+    *clock = now;
+    ms
 }
 
 /// HDR texels as floats.

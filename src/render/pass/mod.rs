@@ -8,8 +8,6 @@ use super::Shot;
 use super::frame_data::FrameData;
 use super::options::FrameOptions;
 use super::resources::Resources;
-use super::targets::Targets;
-use crate::gpu::Image;
 use crate::scene::Scene;
 
 /// What the passes of one frame share.
@@ -24,8 +22,4 @@ pub struct Frame<'a> {
     pub resources: &'a Resources,
     /// What this frame alone reads.
     pub data: &'a FrameData,
-    /// HDR colour and depth.
-    pub targets: &'a Targets,
-    /// The picture.
-    pub target: &'a Image,
 }
