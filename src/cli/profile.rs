@@ -10,9 +10,8 @@ use vair::gpu::GpuOptions;
 use vair::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
 use vair::render::PassFragments;
 
-const COLUMNS: [&str; 11] = [
-    "pass", "GPU ms", "min", "max", "draws", "instances", "vertices", "triangles", "shaded", "rasterized", "overdraw",
-];
+const COLUMNS: [&str; 11] =
+    ["pass", "GPU ms", "min", "max", "draws", "instances", "vertices", "triangles", "shaded", "rasterized", "overdraw"];
 
 const MIB: f64 = (1 << 20) as f64;
 
@@ -164,9 +163,7 @@ fn pass_row(pass: &PassProfile) -> String {
     let [draws, instances, vertices, triangles] =
         [pass.draws.into(), pass.instances, pass.vertices, pass.triangles].map(|count: u64| count.to_string());
     let [shaded, rasterized] = [fragments(|counted| counted.shaded), fragments(|counted| counted.rasterized)];
-    row(&[
-        &pass.name, &median, &min, &max, &draws, &instances, &vertices, &triangles, &shaded, &rasterized, &overdraw,
-    ])
+    row(&[&pass.name, &median, &min, &max, &draws, &instances, &vertices, &triangles, &shaded, &rasterized, &overdraw])
 }
 
 /// The first column starts at the left, the others end at the right.

@@ -16,9 +16,7 @@ impl Profile {
     /// The timed frames as one JSON object. A row of the host holds each frame with its phases; a row of the device holds
     /// the passes, put where the frame was submitted: the two clocks have no common zero.
     pub fn trace(&self) -> Value {
-        let name = |what: &str, row: u32, name: &str| {
-            json!({ "ph": "M", "pid": 1, "tid": row, "ts": 0, "name": what, "args": { "name": name } })
-        };
+        let name = |what: &str, row: u32, name: &str| json!({ "ph": "M", "pid": 1, "tid": row, "ts": 0, "name": what, "args": { "name": name } });
         let mut events = vec![
             name("process_name", HOST, "vair"),
             name("thread_name", HOST, "host"),
@@ -72,16 +70,17 @@ impl Profile {
     }
 }
 
-/// Whole nanoseconds as microseconds, so that what ends together does so in the file, too.
-fn microseconds(ms: f64) -> f64 {
-    (ms * 1e6).round() / 1e3
+/// Whole nanoseconds, so that what ends together does so in the file, too.
+fn nanoseconds(ms: f64) -> f64 {
+    (ms * 1e6).round()
 }
 
 fn complete(row: u32, name: &str, [start_ms, end_ms]: [f64; 2], arguments: Value) -> Value {
-    let (start, end) = (microseconds(start_ms), microseconds(end_ms));
-    json!({ "ph": "X", "pid": 1, "tid": row, "name": name, "ts": start, "dur": end - start, "args": arguments })
+    let (start, end) = (nanoseconds(start_ms), nanoseconds(end_ms));
+    let (start_us, duration_us) = (start / 1e3, (end - start) / 1e3);
+    json!({ "ph": "X", "pid": 1, "tid": row, "name": name, "ts": start_us, "dur": duration_us, "args": arguments })
 }
 
 fn counter(name: &str, at_ms: f64, values: Value) -> Value {
-    json!({ "ph": "C", "pid": 1, "tid": HOST, "name": name, "ts": microseconds(at_ms), "args": values })
+    json!({ "ph": "C", "pid": 1, "tid": HOST, "name": name, "ts": nanoseconds(at_ms) / 1e3, "args": values })
 }

@@ -7,9 +7,7 @@
 use super::pass::{Frame, draws};
 use super::plan::Pass;
 use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
-use crate::gpu::{
-    BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload,
-};
+use crate::gpu::{BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload};
 use crate::scene::Scene;
 use crate::shader::layout::{FragmentCounts, RowCounts};
 use ash::vk;
@@ -102,7 +100,12 @@ impl Renderer {
             });
         }
         let pixels = options.size.iter().map(|side| u64::from(*side)).product();
-        fragments.push(PassFragments { pass: Pass::Tonemap, rasterized: pixels, shaded: pixels, covered_pixels: pixels });
+        fragments.push(PassFragments {
+            pass: Pass::Tonemap,
+            rasterized: pixels,
+            shaded: pixels,
+            covered_pixels: pixels,
+        });
         Ok(fragments)
     }
 

@@ -37,14 +37,7 @@ pub fn draw_lists<'a>(frame: &Frame<'a>) -> Vec<(Pass, Cow<'a, [Draw]>)> {
 }
 
 /// The first pass clears, the last one resolves; those between keep what there is.
-fn record_draws(
-    encoder: &mut Encoder,
-    frame: &Frame,
-    targets: &Targets,
-    pass: Pass,
-    list: &[Draw],
-    is_last: bool,
-) {
+fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: Pass, list: &[Draw], is_last: bool) {
     let is_first = pass == Pass::Opaque;
     let resolve = targets.resolved.as_ref().filter(|_| is_last);
     let color = [ColorTarget {

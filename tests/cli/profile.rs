@@ -42,11 +42,10 @@ fn the_object_has_times_counts_memory_and_starts() {
     }
     // Two triangles a shell; six indices.
     let shells = number(&profile["fur"][0]["layers"]);
-    assert_eq!([&passes[1]["instances"], &passes[1]["triangles"], &passes[1]["vertices"]].map(number), [
-        shells,
-        2.0 * shells,
-        6.0 * shells
-    ]);
+    assert_eq!(
+        [&passes[1]["instances"], &passes[1]["triangles"], &passes[1]["vertices"]].map(number),
+        [shells, 2.0 * shells, 6.0 * shells]
+    );
     assert_eq!(passes[2]["fragments"], 16 * 9);
 
     let memory = &profile["memory"];
