@@ -11,6 +11,7 @@
 #include "uv.glsl"
 
 layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
+layout(constant_id = 14) const uint SAMPLING = 0;          // 0 slab, 1 point
 layout(constant_id = 16) const uint SHELL_SOURCE = 0;      // 0 instance, 1 draw, 2 vertex
 layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
 layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
@@ -64,8 +65,8 @@ void main() {
     if (SHELL_SOURCE == 1u) { shell = draw.shell; }
     if (SHELL_SOURCE == 2u) { shell = uint(gl_VertexIndex) / draw.vertices_per_shell; }
     uint layer = INNER_FIRST ? shell : fur.layers - 1u - shell;
-    // The middle of slab [layer / N, (layer + 1) / N].
-    float height = (float(layer) + 0.5) / float(fur.layers);
+    // Of slab [layer / N, (layer + 1) / N], the upper boundary, where view rays come in, or the middle.
+    float height = (float(layer) + (SAMPLING == 1u ? 0.5 : 1.0)) / float(fur.layers);
 
     float strand_length = fur.length_m;
 #ifdef COLOR

@@ -102,6 +102,10 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
             "device_bytes": memory.device_bytes, "peak_bytes": memory.peak_bytes, "by_use": by_use,
             "by_owner": by_owner,
         },
+        "calls": {
+            "total": profile.calls.total(), "uploaded_bytes": profile.calls.uploaded_bytes,
+            "by_name": profile.calls.by_name,
+        },
         "start": { "cold": start(profile.cold), "warm": start(profile.warm) },
         "left_out": profile.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
         "validation_messages": profile.validation_messages,
@@ -145,6 +149,8 @@ fn as_text(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> String
     for (name, bytes) in owners.iter().take(8) {
         text += &format!("  {:>8.2} MiB  {name}\n", mib(*bytes));
     }
+    let (calls, uploaded) = (profile.calls.total(), profile.calls.uploaded_bytes);
+    text += &format!("calls   {calls} to Vulkan a frame, {uploaded} bytes uploaded\n");
     text += "left out\n";
     for left in &profile.left_out {
         text += &format!("  {}: {}\n", left.what, left.why);

@@ -8,7 +8,7 @@ mod trace;
 
 pub use spread::Spread;
 
-use crate::gpu::{DeviceInfo, GpuOptions, MemoryReport};
+use crate::gpu::{CallCounts, DeviceInfo, GpuOptions, MemoryReport};
 use crate::render::{CoatReport, FrameOptions, FrameReport, LeftOut, PassFragments, RenderError, Renderer};
 use crate::scene::Scene;
 use std::time::Instant;
@@ -88,6 +88,8 @@ pub struct Profile {
     pub fur: Vec<CoatReport>,
     /// Device memory by owner and use, without the counters.
     pub memory: MemoryReport,
+    /// Vulkan calls and uploaded bytes of the last frame.
+    pub calls: CallCounts,
     /// A start with an empty pipeline cache.
     pub cold: Start,
     /// A start with the pipeline cache that the cold one left on disk.
@@ -176,6 +178,7 @@ impl Profile {
             passes: passes.collect(),
             fur: last.fur.clone(),
             memory: last.memory.clone(),
+            calls: last.calls.clone(),
             cold,
             warm,
             left_out: last.left_out.clone(),

@@ -1,8 +1,10 @@
 //! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
 
 use super::Shot;
+use super::map::fur_maps;
 use super::material::fur_uniforms;
-use super::plan::{Draw, DrawKind, Plan, fur_maps};
+use super::pipeline::PipelineSpec;
+use super::plan::{Draw, DrawKind, Plan};
 use super::resources::Resources;
 use super::stream::Stream;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
@@ -13,8 +15,13 @@ use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec3};
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
+
+/// Descriptor set of camera and lights.
+pub const FRAME_SET: u32 = 0;
+/// Descriptor set of where objects stand.
+pub const OBJECT_SET: u32 = 2;
 
 /// What one frame reads and no other.
 pub struct FrameData {
@@ -25,8 +32,8 @@ pub struct FrameData {
     pub deformed: HashMap<(usize, Stream), Buffer>,
     /// Bind groups of the deform dispatches, in the plan's order.
     pub deform_groups: Vec<BindGroup>,
-    /// Frame and object bind groups by pipeline.
-    pub shared_groups: HashMap<usize, (BindGroup, BindGroup)>,
+    /// Bind groups of all objects by set and names: most pipelines have the same.
+    shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -65,17 +72,24 @@ impl FrameData {
     }
 
     fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, plan: &Plan) -> Result<(), GpuError> {
-        for (index, spec) in plan.pipelines.iter().enumerate() {
-            let pipeline = resources.pipeline(spec);
-            let mut offered = vec![("FrameBlock", Resource::Buffer(&self.frame))];
-            if let Some(lights) = &self.lights {
-                offered.push(("LightList", Resource::Buffer(lights)));
+        let mut offered =
+            vec![("FrameBlock", Resource::Buffer(&self.frame)), ("ObjectList", Resource::Buffer(&self.objects))];
+        if let Some(lights) = &self.lights {
+            offered.push(("LightList", Resource::Buffer(lights)));
+        }
+        for spec in &plan.pipelines {
+            for (set, name) in [(FRAME_SET, "frame"), (OBJECT_SET, "objects")] {
+                if let Entry::Vacant(new) = self.shared_groups.entry((set, spec.bindings_of(set))) {
+                    new.insert(gpu.bind_group(resources.pipeline(spec), set, name, &offered)?);
+                }
             }
-            let frame = gpu.bind_group(pipeline, 0, "frame", &offered)?;
-            let objects = gpu.bind_group(pipeline, 2, "objects", &[("ObjectList", Resource::Buffer(&self.objects))])?;
-            self.shared_groups.insert(index, (frame, objects));
         }
         Ok(())
+    }
+
+    /// The bind group of a set, [`FRAME_SET`] or [`OBJECT_SET`], that all objects share.
+    pub fn shared_group(&self, set: u32, spec: &PipelineSpec) -> &BindGroup {
+        &self.shared_groups[&(set, spec.bindings_of(set))]
     }
 
     fn bind_coat(
@@ -131,11 +145,12 @@ impl FrameData {
                 offered.push(("InfluenceList", Resource::Buffer(indices)));
                 offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
             }
-            let weights = filled(gpu, "morph weights", storage, &instance.morph_weights)?;
-            if let Some(deltas) = resources.morph_deltas.get(&(index, deform.stream)) {
-                offered.push(("MorphDeltas", Resource::Buffer(deltas)));
-                offered.push(("MorphWeights", Resource::Buffer(&weights)));
-            }
+            let deltas = resources.morph_deltas.get(&(index, deform.stream));
+            let weights = deltas.map(|_| filled(gpu, "morph weights", storage, &instance.morph_weights)).transpose()?;
+            // Without targets nothing is read of either.
+            let rest = &resources.streams[&(index, deform.stream)];
+            offered.push(("MorphDeltas", Resource::Buffer(deltas.unwrap_or(rest))));
+            offered.push(("MorphWeights", Resource::Buffer(weights.as_ref().unwrap_or(rest))));
             let pipeline = resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]);
             self.deform_groups.push(gpu.bind_group(pipeline, 0, "deform", &offered)?);
             self.deformed.insert((deform.instance, deform.stream), target);

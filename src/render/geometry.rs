@@ -30,6 +30,15 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
     }
 }
 
+/// The indices of one copy of a primitive's vertices among several, as bytes.
+pub fn index_bytes(primitive: &Primitive, copy: u32) -> Cow<'_, [u8]> {
+    if copy == 0 {
+        return Cow::Borrowed(bytemuck::cast_slice(&primitive.indices));
+    }
+    let first = copy * primitive.vertices.positions.len() as u32;
+    Cow::Owned(primitive.indices.iter().flat_map(|index| (first + index).to_ne_bytes()).collect())
+}
+
 /// Morph offsets of a stream, `[target][vertex]` of three floats; zeros where a target leaves it alone.
 pub fn morph_delta_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
     let source = &mesh.primitives[primitive];

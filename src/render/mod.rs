@@ -8,7 +8,10 @@ mod file;
 mod frame;
 mod frame_data;
 mod geometry;
+mod left_out;
+mod map;
 mod material;
+mod memory;
 mod options;
 mod pass;
 mod picture;
@@ -22,21 +25,26 @@ mod texture;
 
 pub use count::PassFragments;
 pub use file::write_file;
+pub use left_out::LeftOut;
+pub use map::StandIn;
+pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
 };
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
-pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
+pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, TextureUse};
 pub use report::{CoatReport, CpuPhases, FrameReport};
 pub use stream::Stream;
+pub use targets::Attachment;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
 use frame_data::FrameData;
 use glam::Vec4;
+use memory::PICTURE_NAME;
 use pass::Frame;
 use pass::tonemap::Display;
 use resources::Resources;
@@ -118,6 +126,7 @@ impl Shot {
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
+        options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
@@ -157,9 +166,9 @@ impl Renderer {
     /// On a device that is there already, such as the host's ([`Gpu::from_host`]).
     ///
     /// # Errors
-    /// When the device is out of memory.
+    /// None: nothing is made before a plan asks for it.
     pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
-        Ok(Self { resources: Resources::new(&gpu)?, gpu, targets: None, picture: None, scene: None })
+        Ok(Self { resources: Resources::new(&gpu), gpu, targets: None, picture: None, scene: None })
     }
 
     /// The device.
@@ -193,19 +202,20 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let (mut cpu, mut clock) = (CpuPhases::default(), Instant::now());
+        let (mut cpu, mut clock, before) = (CpuPhases::default(), Instant::now(), self.gpu.calls());
         let shot = Shot::new(scene, options)?;
         cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
         let prepared = self.prepare(scene, &shot, options, target.format())?;
         cpu.prepare_ms = lap_ms(&mut clock);
-        self.record_prepared(&mut encoder, scene, &shot, options, &prepared, &target)?;
+        self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
         cpu.record_ms = lap_ms(&mut clock);
         let submission = encoder.submit()?;
         cpu.submit_ms = lap_ms(&mut clock);
         let times = submission.wait(FRAME_TIMEOUT_MS)?;
         cpu.wait_ms = lap_ms(&mut clock);
+        let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
         if keep_radiance && let Some(targets) = &self.targets {
@@ -222,7 +232,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory());
+        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
         Ok((picture, report))
     }
 
@@ -240,7 +250,7 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
         let prepared = self.prepare(scene, &shot, options, target.format())?;
-        self.record_prepared(encoder, scene, &shot, options, &prepared, target)
+        self.record_prepared(encoder, scene, &shot, options, prepared, target)
     }
 
     /// Makes what the shot needs and is not there yet.
@@ -282,12 +292,12 @@ impl Renderer {
         scene: &Scene,
         shot: &Shot,
         options: &FrameOptions,
-        Prepared { data, tonemap }: &Prepared,
+        Prepared { data, tonemap }: Prepared,
         target: &Image,
     ) -> Result<(), RenderError> {
         let Some(targets) = &self.targets else { return Ok(()) };
-        let display = Display::new(&self.gpu, self.resources.pipeline(tonemap), targets.hdr(), target)?;
-        let frame = Frame { scene, shot, options, resources: &self.resources, data };
+        let display = Display::new(&self.gpu, self.resources.pipeline(&tonemap), targets.hdr(), target)?;
+        let frame = Frame { scene, shot, options, resources: &self.resources, data: &data };
         frame::record(encoder, &frame, targets, &display);
         Ok(())
     }
@@ -298,9 +308,9 @@ impl Renderer {
             return Ok(picture);
         }
         Ok(self.gpu.image(&ImageDesc {
-            name: "picture",
+            name: PICTURE_NAME,
             size,
-            format: vk::Format::R8G8B8A8_UNORM,
+            format: PICTURE_FORMAT,
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,

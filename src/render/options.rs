@@ -1,8 +1,9 @@
 //! What one frame is asked to be.
 
 use super::RenderError;
-use crate::asset::Asset;
-use crate::scene::CameraChoice;
+use crate::asset::{Asset, Primitive, Topology};
+use crate::material::Material;
+use crate::scene::{CameraChoice, Instance, Scene};
 use glam::Vec3;
 
 /// Most shells of a coat.
@@ -40,6 +41,9 @@ pub struct FrameOptions {
     pub shells: Shells,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
+    /// Draws the frame with everything that a plan can leave out: every pass, the largest permutations with texels that
+    /// change nothing, all vertex streams. The same picture; what leaving out saves is the difference.
+    pub everything: bool,
 }
 
 impl Default for FrameOptions {
@@ -59,6 +63,7 @@ impl Default for FrameOptions {
             layer_scale: 1.0,
             shells: Shells::default(),
             msaa: 4,
+            everything: false,
         }
     }
 }
@@ -100,6 +105,33 @@ impl FrameOptions {
         ] {
             if let Some(index) = index.filter(|index| *index >= count) {
                 return wrong(option, format!("there is no {option} {index}; the file has {count}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Says which coat cannot have its vertices once a shell.
+    pub(super) fn check_coats(&self, scene: &Scene, instances: &[Instance]) -> Result<(), RenderError> {
+        if self.shells.submission != ShellSubmission::Duplicated {
+            return Ok(());
+        }
+        for instance in instances {
+            let Material { fur: Some(fur), name, .. } = &scene.materials()[instance.material] else { continue };
+            let Primitive { topology, vertices, indices, morph_targets, .. } =
+                &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
+            if *topology != Topology::Triangles {
+                continue;
+            }
+            let wrong = |problem: &str| {
+                let problem = format!("the coat '{name}' {problem}; submit its shells instanced or as draws");
+                Err(RenderError::Option { option: "duplicated shells", problem })
+            };
+            if instance.skin.is_some() || !morph_targets.is_empty() {
+                return wrong("is skinned or morphed, which moves one copy of its vertices");
+            }
+            let layers = self.layers_of_coat(fur.layers) as usize;
+            if vertices.positions.len().max(indices.len()).saturating_mul(layers) > u32::MAX as usize {
+                return wrong("has more vertices or indices in all shells than 32 bits can count");
             }
         }
         Ok(())

@@ -23,6 +23,9 @@ pub enum Stream {
     ShellSide,
 }
 
+/// What vertices have that lack a stream: zero, and white for a colour.
+pub const ABSENT: [[f32; 4]; 2] = [[0.0; 4], [1.0; 4]];
+
 /// A vertex input and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Input {
@@ -42,6 +45,11 @@ impl Stream {
             Self::Tangent | Self::Color => 16,
             Self::Uv0 | Self::Uv1 => 8,
         }
+    }
+
+    /// Offset in [`ABSENT`] of the value that stands in where a primitive lacks the stream, bytes.
+    pub fn absent_offset(self) -> u64 {
+        if self == Self::Color { 16 } else { 0 }
     }
 
     /// The deform shader's STREAM constant; `None` for streams that no pose changes.

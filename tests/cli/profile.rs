@@ -53,6 +53,7 @@ fn the_object_has_times_counts_memory_and_starts() {
     assert_eq!(sum("by_use"), number(&memory["device_bytes"]));
     assert_eq!(sum("by_owner"), number(&memory["device_bytes"]));
     assert!(number(&memory["by_use"]["targets"]) >= f64::from(16 * 9 * (8 + 4 + 4)));
+    assert!(number(&profile["calls"]["total"]) > 0.0 && number(&profile["calls"]["uploaded_bytes"]) > 0.0);
     for start in ["cold", "warm"] {
         let [pipelines, first] = ["pipelines_ms", "first_frame_ms"].map(|name| number(&profile["start"][start][name]));
         assert!(0.0 < pipelines && pipelines < first, "{start}");
