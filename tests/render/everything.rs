@@ -16,17 +16,22 @@ const LARGEST_HALF_STEPS: f32 = 2.0;
 /// A half float's own rounding hides all but one in thousands.
 const DIFFERING_SHARE: f64 = 1e-3;
 
-/// Largest difference of two radiances in steps of half floats, and the share of channels that differ at all.
-fn half_steps(a: &Picture, b: &Picture) -> (f32, f64) {
+/// Whether a pixel lies within a strand is decided at one place of it: where a strand's edge passes within a rounding of
+/// that place, it may be decided otherwise.
+const JUMPING_SHARE: f64 = 1e-4;
+
+/// Shares of channels of two radiances that are more than [`LARGEST_HALF_STEPS`] apart, and that differ at all.
+fn half_steps(a: &Picture, b: &Picture) -> (f64, f64) {
     let channels = |picture: &Picture| picture.radiance.iter().flat_map(|r| r.to_array()).collect::<Vec<f32>>();
-    let (mut largest, mut differing) = (0.0, 0);
+    let (mut jumping, mut differing) = (0, 0);
     for (a, b) in channels(a).into_iter().zip(channels(b)) {
         // Half floats keep 11 bits, and below 2^-14 a fixed step.
         let exponent = a.abs().max(b.abs()).max(2f32.powi(-14)).log2().floor() as i32;
-        largest = f32::max(largest, (a - b).abs() / 2f32.powi(exponent - 10));
+        jumping += usize::from((a - b).abs() / 2f32.powi(exponent - 10) > LARGEST_HALF_STEPS);
         differing += usize::from(a != b);
     }
-    (largest, differing as f64 / (4 * a.radiance.len()) as f64)
+    let share = |count| count as f64 / (4 * a.radiance.len()) as f64;
+    (share(jumping), share(differing))
 }
 
 #[test]
@@ -51,11 +56,14 @@ fn everything_gives_the_same_picture() {
             headless(|device| {
                 let (found, expected) = (device.picture(&scene, &all), device.picture(&scene, &frame));
                 let covered = expected.radiance.iter().filter(|radiance| radiance.w > 0.0).count();
-                let levels = found.rgba.iter().zip(&expected.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(255);
-                let (steps, share) = half_steps(&found, &expected);
-                let what = format!("{what}, {msaa} samples: {levels} levels, {steps} half steps, {share} differ");
+                let far = found.rgba.iter().zip(&expected.rgba).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+                let far = far as f64 / found.rgba.len() as f64;
+                let (jumping, share) = half_steps(&found, &expected);
+                let limit = if planned.fur.is_empty() { 0.0 } else { JUMPING_SHARE };
+                let what =
+                    format!("{what}, {msaa} samples: {jumping} jump, {far} by more than a level, {share} differ");
                 assert!(covered > 1000, "{what}: only {covered} pixels are covered");
-                assert!(levels <= 1 && steps <= LARGEST_HALF_STEPS && share <= DIFFERING_SHARE, "{what}");
+                assert!(far <= limit && jumping <= limit && share <= DIFFERING_SHARE, "{what}");
             });
         }
     }
