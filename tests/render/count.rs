@@ -42,7 +42,7 @@ fn what_hidden_surfaces_cost_depends_on_their_order() {
     let (near, far) = ((plain(), 1.0), (plain(), -1.0));
     headless(|device| {
         let mut opaque = |materials: &[_]| count(device, &squares(materials), &frame, Pass::Opaque);
-        assert_eq!(opaque(&[near.clone()]), [PIXELS, PIXELS, PIXELS]);
+        assert_eq!(opaque(std::slice::from_ref(&near)), [PIXELS, PIXELS, PIXELS]);
         assert_eq!(opaque(&[near.clone(), far.clone()]), [2 * PIXELS, PIXELS, PIXELS]);
         assert_eq!(opaque(&[far.clone(), near.clone()]), [2 * PIXELS, 2 * PIXELS, PIXELS]);
         // Equal depth passes, as in the pipelines.
