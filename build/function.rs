@@ -60,7 +60,9 @@ impl Library {
             for path in paths {
                 let text = std::fs::read_to_string(&path).map_err(failed)?;
                 let file = path.file_name().unwrap_or_default().to_string_lossy();
-                if let Err(error) = library.add(&file, &text) {
+                // Functions of the host folder need bindings: they are no part of the library.
+                let has_functions = folder.ends_with("lib");
+                if let Err(error) = library.add(&file, &text, has_functions) {
                     errors.push(format!("{}:{error}", path.display()));
                 }
             }
@@ -68,8 +70,8 @@ impl Library {
         if errors.is_empty() { Ok(library) } else { Err(errors) }
     }
 
-    /// Takes the definitions of one file. The error starts with the line.
-    pub(crate) fn add(&mut self, file: &str, text: &str) -> Result<(), String> {
+    /// Takes the structs of one file, and its functions where it has some of the library. The error starts with the line.
+    pub(crate) fn add(&mut self, file: &str, text: &str, has_functions: bool) -> Result<(), String> {
         let mut lines = (1..).zip(text.lines().map(|line| line.split("//").next().unwrap_or_default().trim_end()));
         while let Some((number, line)) = lines.next() {
             let inside = line.is_empty() || line.starts_with([' ', '#', '}', '{']);
@@ -87,6 +89,9 @@ impl Library {
                 let members = body.filter(|line| !line.is_empty()).map(|line| declaration(line.trim_end_matches(';')));
                 let members = members.collect::<Result<_, _>>().map_err(|error| format!("{number}: {error}"))?;
                 self.structs.insert(name.trim().to_owned(), members);
+                continue;
+            }
+            if !has_functions {
                 continue;
             }
             let function = function(file, &head).map_err(|error| format!("{number}: {error}"))?;

@@ -3,6 +3,8 @@
 use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
+#[cfg(feature = "measure")]
+use crate::profile::ProfileError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
 #[cfg(feature = "measure")]
@@ -31,4 +33,8 @@ pub enum Error {
     #[cfg(feature = "measure")]
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    /// A frame cannot be profiled.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
 }

@@ -57,6 +57,7 @@
 //! | [`material`] | parameters declared once, looks, presets, and double-precision twins of the shading |
 //! | [`scene`] | pose, instances, lights, camera; pure functions |
 //! | [`render`] | what one frame needs, and the frame |
+//! | `profile` | where a frame's time, fragments and memory go (feature `measure`) |
 //!
 //! # A frame
 //! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists

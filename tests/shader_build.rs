@@ -281,7 +281,7 @@ fn functions_of_the_library_are_found_with_their_flattened_types() {
     let mut library = function::Library::default();
     let text = "// Doc.\n#ifndef A\nconst float X = 1.0;\nstruct Lamp {\n    vec3 color; // lux\n    uint kind;\n    float \
                 _reserved_0;\n};\nfloat lit(Lamp lamp, vec3 place,\n          bool is_near) {\n    return X;\n}\n#endif\n";
-    library.add("lamp.glsl", text).unwrap();
+    library.add("lamp.glsl", text, true).unwrap();
     let [lit] = library.functions.as_slice() else { panic!("{:?}", library.functions) };
     assert_eq!((lit.name.as_str(), lit.file.as_str(), lit.result.as_str()), ("lit", "lamp.glsl", "float"));
     let values: Vec<_> = lit
@@ -293,7 +293,7 @@ fn functions_of_the_library_are_found_with_their_flattened_types() {
     let expected =
         [("lamp.color", "Float", 3), ("lamp.kind", "Uint", 1), ("place", "Float", 3), ("is_near", "Bool", 1)];
     assert_eq!(values, expected.map(|(path, scalar, words)| (path.to_owned(), scalar, words)));
-    let mut error = |text: &str| library.add("b.glsl", text).unwrap_err();
+    let mut error = |text: &str| library.add("b.glsl", text, true).unwrap_err();
     assert_eq!(error("\nfloat f(inout vec3 x) {\n}\n"), "2: `inout vec3 x` is not a type and a name");
     assert!(error("float lit(float x) {\n}\n").starts_with("1: `lit` is defined twice"));
     assert!(error("precision highp float;\n").starts_with("1: `precision highp float;` is no definition"));

@@ -11,6 +11,9 @@
 #include "strand.glsl"
 #include "lock.glsl"
 #include "coverage.glsl"
+#ifdef COUNT
+#include "count.glsl"
+#endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
@@ -200,15 +203,20 @@ void main() {
     float unresolved = strand_unresolved(slope);
     int mask = -1;
     if (BLEND) {
-        if (opacity <= 0.0) { discard; }
+        mask = opacity > 0.0 ? -1 : 0;
     } else {
         // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
         // Seen one by one, the shells of a strand cover the same samples; means are met by chance, each its own.
         vec2 grain = coverage_grain(root_in_rest, pixel_in_rest, unresolved > 0.0 ? layer : 0u);
         float rounding = mix(0.5, grain.x, KEEP_PARTIAL ? 1.0 : unresolved);
         mask = coverage_mask(opacity, samples, rounding, grain.y);
-        if (mask == 0) { discard; }
     }
+#ifdef COUNT
+    count_fragment(uint(mask), samples, !BLEND);
+    radiance = vec4(1.0);
+    if (mask == 0) { discard; }
+#else
+    if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
 
     vec3 color = fur.base_color;
@@ -242,4 +250,5 @@ void main() {
     }
     sum = min(sum, vec3(RADIANCE_LIMIT));
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+#endif
 }

@@ -54,7 +54,7 @@ pub use format::{format_bytes, level_size};
 pub use host::HostDevice;
 pub use image::{Image, ImageDesc};
 pub use instance::ValidationLog;
-pub use memory::{Memory, MemoryReport};
+pub use memory::{Memory, MemoryReport, MemoryUse};
 pub use pass::{ComputePass, RenderPass};
 pub use pipeline::{BlendState, ColorState, DepthState, GraphicsDesc, Pipeline};
 pub use query::{FrameTimes, PassStatistics, PassTime};

@@ -48,10 +48,14 @@ pub struct PassTime {
     pub name: String,
     /// From the pass's barrier to its end, ms; `None` without timestamps.
     pub gpu_ms: Option<f64>,
+    /// From the start of the first pass to the start of this one, ms; `None` without timestamps.
+    pub gpu_start_ms: Option<f64>,
     /// Draws and dispatches.
     pub draws: u32,
     /// Instances of all draws.
     pub instances: u64,
+    /// Vertices of all draws and instances, as the indices name them: one that triangles share counts for each.
+    pub vertices: u64,
     /// Triangles of all draws and instances.
     pub triangles: u64,
     /// The driver's counts, where it has them.
@@ -75,13 +79,14 @@ pub(crate) struct PassRecord {
     pub(crate) name: String,
     pub(crate) draws: u32,
     pub(crate) instances: u64,
+    pub(crate) vertices: u64,
     pub(crate) triangles: u64,
 }
 
 impl PassRecord {
     pub(crate) fn without_times(self) -> PassTime {
-        let Self { name, draws, instances, triangles } = self;
-        PassTime { name, gpu_ms: None, draws, instances, triangles, statistics: None }
+        let Self { name, draws, instances, vertices, triangles } = self;
+        PassTime { name, gpu_ms: None, gpu_start_ms: None, draws, instances, vertices, triangles, statistics: None }
     }
 }
 
@@ -218,7 +223,7 @@ impl Recording {
                 let query = (index % PASSES_PER_CHUNK as usize) as u32;
                 if let Some([start, end]) = self.ticks(chunk, query) {
                     pass.gpu_ms = Some(self.ms_between(start, end));
-                    first_tick = first_tick.or(Some(start));
+                    pass.gpu_start_ms = Some(self.ms_between(*first_tick.get_or_insert(start), start));
                     last_tick = Some(end);
                 }
                 pass.statistics = self.statistics(chunk, query);

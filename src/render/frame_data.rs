@@ -6,7 +6,7 @@ use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan};
 use super::resources::Resources;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
 use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
@@ -29,10 +29,6 @@ pub struct FrameData {
     objects: Buffer,
     /// Bind groups of all objects by set and names: most pipelines have the same.
     shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
-    /// The tone-mapping pipeline for this frame's target.
-    pub tonemap: PipelineSpec,
-    /// Its bind group.
-    pub tonemap_group: BindGroup,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -42,25 +38,14 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    pub fn new(
-        gpu: &Gpu,
-        resources: &Resources,
-        scene: &Scene,
-        shot: &Shot,
-        hdr: &Image,
-        tonemap: PipelineSpec,
-    ) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, resources: &Resources, scene: &Scene, shot: &Shot) -> Result<Self, GpuError> {
         let Shot { plan, camera, lighting, .. } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
         let frame = frame_uniforms(camera, lighting);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
-        let tonemap_group =
-            gpu.bind_group(resources.pipeline(&tonemap), 0, "tonemap", &[("hdr", Resource::Texture(hdr))])?;
         let mut data = Self {
-            tonemap,
-            tonemap_group,
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
             lights: if lit {
                 Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)

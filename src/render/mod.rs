@@ -3,6 +3,8 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod count;
+mod file;
 mod frame;
 mod frame_data;
 mod geometry;
@@ -23,6 +25,8 @@ mod sway;
 mod targets;
 mod texture;
 
+pub use count::PassFragments;
+pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
@@ -33,7 +37,7 @@ pub use options::{
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
-pub use report::{CoatReport, FrameReport};
+pub use report::{CoatReport, CpuPhases, FrameReport};
 pub use stream::Stream;
 pub use targets::Attachment;
 
@@ -44,6 +48,7 @@ use frame_data::FrameData;
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
+use pass::tonemap::Display;
 use pass::{Frame, Moving};
 use resources::Resources;
 use std::path::PathBuf;
@@ -137,6 +142,13 @@ impl Shot {
     }
 }
 
+/// What one frame reads, made and not yet recorded.
+struct Prepared {
+    motion: Motion,
+    data: FrameData,
+    tonemap: PipelineSpec,
+}
+
 /// Renders scenes on one device. What a scene keeps there stays until another scene is rendered.
 pub struct Renderer {
     gpu: Gpu,
@@ -198,13 +210,19 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let (start, before) = (Instant::now(), self.gpu.calls());
+        let (mut cpu, mut clock, before) = (CpuPhases::default(), Instant::now(), self.gpu.calls());
         let shot = Shot::new(scene, options)?;
+        cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
-        self.record_shot(&mut encoder, scene, &shot, options, &target)?;
-        let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
-        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        cpu.prepare_ms = lap_ms(&mut clock);
+        self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
+        cpu.record_ms = lap_ms(&mut clock);
+        let submission = encoder.submit()?;
+        cpu.submit_ms = lap_ms(&mut clock);
+        let times = submission.wait(FRAME_TIMEOUT_MS)?;
+        cpu.wait_ms = lap_ms(&mut clock);
         let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
@@ -222,7 +240,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory(), calls);
+        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
         Ok((picture, report))
     }
 
@@ -239,7 +257,8 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
-        self.record_shot(encoder, scene, &shot, options, target)
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        self.record_prepared(encoder, scene, &shot, options, prepared, target)
     }
 
     /// Moves strands that lag behind on to `options.time_s` without drawing anything, on a submission of its own that is
@@ -260,7 +279,7 @@ impl Renderer {
         deforms.retain(|deform| {
             deform.stream == Stream::Position && sways.iter().any(|sway| sway.instance == deform.instance)
         });
-        let motion = self.prepare(scene, &shot, options)?;
+        let motion = self.prepare_motion(scene, &shot, options)?;
         let mut encoder = self.gpu.encoder("advance")?;
         let moving = Moving { scene, shot: &shot, resources: &self.resources, motion: &motion };
         frame::record_motion(&mut encoder, &moving);
@@ -269,9 +288,31 @@ impl Renderer {
         Ok(())
     }
 
+    /// Makes what the shot needs and is not there yet.
+    fn prepare(
+        &mut self,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        target_format: vk::Format,
+    ) -> Result<Prepared, RenderError> {
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
+            // The old ones go first: two sets need not fit at once.
+            self.targets = None;
+        }
+        let motion = self.prepare_motion(scene, shot, options)?;
+        if self.targets.is_none() {
+            self.targets = Some(Targets::new(&self.gpu, options)?);
+        }
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
+        self.resources.make_pipeline(&tonemap)?;
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot)?;
+        Ok(Prepared { motion, data, tonemap })
+    }
+
     /// Makes what the plan lists, and what moves in it. Until [`Self::keep`], nothing counts as made: a frame that failed
     /// half-way may have left streams and images without their contents.
-    fn prepare(&mut self, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Motion, RenderError> {
+    fn prepare_motion(&mut self, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Motion, RenderError> {
         if self.scene.take() != Some(scene.id()) {
             self.resources.forget_scene();
         }
@@ -285,30 +326,19 @@ impl Renderer {
         self.sway.keep(scene, options);
     }
 
-    fn record_shot(
+    fn record_prepared(
         &mut self,
         encoder: &mut Encoder,
         scene: &Scene,
         shot: &Shot,
         options: &FrameOptions,
+        Prepared { motion, data, tonemap }: Prepared,
         target: &Image,
     ) -> Result<(), RenderError> {
-        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
-            // The old ones go first: two sets need not fit at once.
-            self.targets = None;
-        }
-        let motion = self.prepare(scene, shot, options)?;
-        let targets = match self.targets.take() {
-            Some(targets) => targets,
-            None => Targets::new(&self.gpu, options)?,
-        };
-        let targets = self.targets.insert(targets);
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
-        self.resources.make_pipeline(&tonemap)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
-        let resources = &self.resources;
-        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, targets, target };
-        frame::record(encoder, &frame);
+        let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
+        let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data };
+        frame::record(encoder, &frame, targets, &display);
         self.keep(scene, options);
         Ok(())
     }
@@ -327,6 +357,14 @@ impl Renderer {
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
         })?)
     }
+}
+
+/// Milliseconds since `clock`, which starts anew.
+fn lap_ms(clock: &mut Instant) -> f64 {
+    let now = Instant::now();
+    let ms = now.duration_since(*clock).as_secs_f64() * 1e3;
+    *clock = now;
+    ms
 }
 
 /// HDR texels as floats.

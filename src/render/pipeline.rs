@@ -172,6 +172,29 @@ impl PipelineSpec {
         }
     }
 
+    /// Format of the counting pipelines' target, which nobody reads: Vulkan wants one where samples matter.
+    pub const COUNTING_FORMAT: vk::Format = vk::Format::R8_UNORM;
+
+    /// The pipeline that counts the fragments of this one of a surface or coat instead of shading them. It keeps what
+    /// decides where they are and how much of them survives, and tests depth by itself.
+    pub fn counting(&self) -> Self {
+        let (file, defines) = self.fragment.split_once('+').unwrap_or((&self.fragment, ""));
+        // The colours of vertices reach a coat's length, and no further.
+        let kept: &[&str] = if file == "fur.frag" { &["MAPS"] } else { &["UV", "COLOR"] };
+        let kept = kept.iter().map(|define| (*define, defines.split('+').any(|given| given == *define)));
+        let fragment = permutation(file, &[("COUNT", true)].into_iter().chain(kept).collect::<Vec<_>>());
+        let stages = [shader(&self.vertex), shader(&fragment)];
+        let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
+        Self {
+            vertex: self.vertex.clone(),
+            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().collect(),
+            fragment,
+            depth: DepthUse::None,
+            color_format: Self::COUNTING_FORMAT,
+            ..*self
+        }
+    }
+
     /// The pipeline that makes a picture of `target_format` from the HDR image.
     pub fn tonemap(tonemap: Tonemap, hdr_format: HdrFormat, target_format: vk::Format) -> Self {
         Self {

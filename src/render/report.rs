@@ -11,6 +11,10 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct FrameReport {
     /// From the call to the finished frame, wall clock, milliseconds; reading it back is not in it.
     pub frame_ms: f64,
+    /// Where the host's time went.
+    pub cpu: CpuPhases,
+    /// From the start of the first pass to the end of the last on the device, milliseconds; `None` without timestamps.
+    pub gpu_ms: Option<f64>,
     /// Creation of every pipeline so far, milliseconds.
     pub pipelines_ms: f64,
     /// Passes in order.
@@ -23,6 +27,29 @@ pub struct FrameReport {
     pub calls: CallCounts,
     /// What the frame did without.
     pub left_out: Vec<LeftOut>,
+}
+
+/// The host's time of one frame by phase, in order and without gaps, milliseconds.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct CpuPhases {
+    /// Pose, camera, lights and the plan.
+    pub plan_ms: f64,
+    /// Making what is not there yet, pipelines among it, and this frame's values.
+    pub prepare_ms: f64,
+    /// Recording the passes.
+    pub record_ms: f64,
+    /// Handing them to the device. Some software devices draw here.
+    pub submit_ms: f64,
+    /// Waiting for the device.
+    pub wait_ms: f64,
+}
+
+impl CpuPhases {
+    /// Name and milliseconds of each, in order.
+    pub fn named(&self) -> [(&'static str, f64); 5] {
+        let Self { plan_ms, prepare_ms, record_ms, submit_ms, wait_ms } = *self;
+        [("plan", plan_ms), ("prepare", prepare_ms), ("record", record_ms), ("submit", submit_ms), ("wait", wait_ms)]
+    }
 }
 
 /// A coat that was drawn.
@@ -43,13 +70,15 @@ impl FrameReport {
         scene: &Scene,
         plan: &Plan,
         times: FrameTimes,
-        frame_ms: f64,
+        cpu: CpuPhases,
         pipelines_ms: f64,
         memory: MemoryReport,
         calls: CallCounts,
     ) -> Self {
         Self {
-            frame_ms,
+            frame_ms: cpu.named().iter().map(|(_, ms)| ms).sum(),
+            cpu,
+            gpu_ms: times.gpu_ms,
             pipelines_ms,
             passes: times.passes,
             fur: coats(scene, plan),

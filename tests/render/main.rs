@@ -18,6 +18,7 @@ mod stage;
 mod blending;
 mod camera;
 mod coat;
+mod count;
 mod deform;
 mod determinism;
 mod display;

@@ -122,8 +122,10 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
                 let frame = FrameOptions { animation, ..options([4, 4], msaa) };
                 let plan = Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
                 used.extend(plan.pipelines.iter().flat_map(|spec| [spec.vertex.clone(), spec.fragment.clone()]));
+                used.extend(plan.pipelines.iter().map(|spec| spec.counting().fragment));
                 used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader.clone()));
                 device.picture(scene, &frame);
+                device.renderer.count_fragments(scene, &frame).unwrap_or_else(|error| panic!("{error}"));
             }
         }
         let compiled: BTreeSet<String> = table::ALL.iter().map(|shader| shader.name.to_owned()).collect();

@@ -10,8 +10,6 @@ use super::frame_data::FrameData;
 use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
-use super::targets::Targets;
-use crate::gpu::Image;
 use crate::scene::Scene;
 
 /// What the passes that move vertices share.
@@ -24,6 +22,14 @@ pub struct Moving<'a> {
     pub resources: &'a Resources,
     /// What they read and write.
     pub motion: &'a Motion,
+}
+
+impl<'a> Frame<'a> {
+    /// Its part that moves.
+    pub fn moving(&self) -> Moving<'a> {
+        let Self { scene, shot, resources, motion, .. } = *self;
+        Moving { scene, shot, resources, motion }
+    }
 }
 
 /// What the passes of one frame share.
@@ -40,8 +46,4 @@ pub struct Frame<'a> {
     pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
-    /// HDR colour and depth.
-    pub targets: &'a Targets,
-    /// The picture.
-    pub target: &'a Image,
 }
