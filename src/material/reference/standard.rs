@@ -42,20 +42,25 @@ impl Surface {
         })
     }
 
+    /// The specular lobe alone, times `mu_l`: GGX with Turquin's compensation; 0 where a direction is at or below the
+    /// horizon.
+    pub fn specular_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
+        let alpha = ggx::alpha_of_roughness(self.roughness);
+        let h = ggx::half_vector(v, l);
+        let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
+        let (white, _) = fit.terms(v.z, self.roughness);
+        per_channel(|channel| {
+            let f0 = self.f0(channel);
+            lobe * ggx::schlick(f0, v.dot(h)) * (1.0 + f0 * (1.0 - white) / white)
+        })
+    }
+
     /// BRDF times `mu_l`; 0 where a direction is at or below the horizon.
     pub fn brdf_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
         if v.z <= 0.0 || l.z <= 0.0 {
             return DVec3::ZERO;
         }
-        let alpha = ggx::alpha_of_roughness(self.roughness);
-        let h = ggx::half_vector(v, l);
-        let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
-        let (white, _) = fit.terms(v.z, self.roughness);
-        let specular = per_channel(|channel| {
-            let f0 = self.f0(channel);
-            lobe * ggx::schlick(f0, v.dot(h)) * (1.0 + f0 * (1.0 - white) / white)
-        });
-        specular + self.diffuse_brdf(fit, v.z, l.z) * l.z
+        self.specular_times_cosine(fit, v, l) + self.diffuse_brdf(fit, v.z, l.z) * l.z
     }
 
     /// Radiance under constant white radiance 1, by the fit.
