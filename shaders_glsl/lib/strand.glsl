@@ -113,6 +113,10 @@ float strand_light_through_coat(float height, float occlusion, float cosine_to_l
     return exp(-depth_at_root * (1.0 - height) / max(cosine_to_light, 0.05));
 }
 
+// Cosine around the fibre of a direction along it, which has none: there cos(phi / 2) takes its mean, 2 / pi, and the
+// lobe keeps its integral. 8 / pi^2 - 1.
+const float STRAND_COSINE_ALONG = -0.189430531;
+
 // Scattering lobe of a fibre: Gaussian in the sum of the sines of the two angles along the fibre (mean `shift`,
 // variance `variance`), cos(phi / 2) / 4 around it. Its integral over all directions is at most 1; no cosine
 // belongs to it. Azimuthal part: Marschner et al. 2003, "Light Scattering from Human Hair Fibers", section 5.
@@ -124,7 +128,7 @@ float strand_lobe(vec3 tangent, vec3 to_eye, vec3 to_light, float shift, float v
     vec3 eye_across = to_eye - sine_eye * tangent;
     vec3 light_across = to_light - sine_light * tangent;
     float lengths = dot(eye_across, eye_across) * dot(light_across, light_across);
-    float cosine = lengths > 1e-12 ? dot(eye_across, light_across) * inversesqrt(lengths) : 1.0;
+    float cosine = lengths > 1e-12 ? dot(eye_across, light_across) * inversesqrt(lengths) : STRAND_COSINE_ALONG;
     return along * 0.25 * sqrt(max(0.5 + 0.5 * cosine, 0.0));
 }
 
