@@ -30,7 +30,7 @@ pub fn column_coverage(cosine_to_eye: f64, edge_fade: f64) -> f64 {
 /// Where a strand of length 1 is at a height: `k ((1 - k s) n + k s g)`, as (along the normal, sideways), for a force of
 /// strength `s` at `angle` radians from the normal.
 ///
-/// Defects: a strand is not as long as it was (0.50 to 1.26), layers fall below inner ones for s > 0.5, and the tip ends
+/// Defects: a strand is not as long as it was (0.41 to 1.26), layers fall below inner ones for s > 0.5, and the tip ends
 /// in the skin at s = 1 or a whole length under it.
 pub fn place(height: f64, strength: f64, angle: f64) -> [f64; 2] {
     let bend = height * strength;

@@ -48,7 +48,8 @@ impl Lobe {
     /// Highlight times the cosine of `l`. Older manuals leave the visibility term open; ours is height-correlated Smith
     /// (Heitz 2014), which never gains anything by itself.
     ///
-    /// Defect: the strength makes up for the distribution and reflects 27.6 times the light at roughness 1.
+    /// Defect: the strength makes up for the distribution and reflects 27.6 times the light at roughness 1,
+    /// seen at the cosine 0.02; 30 times at the horizon.
     pub fn times_cosine(&self, v: DVec3, l: DVec3) -> f64 {
         let h = ggx::half_vector(v, l);
         let one = |anisotropy| {

@@ -44,8 +44,8 @@ pub struct Velvet {
 impl Velvet {
     /// The highlight times the cosine of `l`, visibility by height-correlated Smith (Heitz 2014).
     ///
-    /// Defect: the visibility knows the roughness and the distribution does not: at grazing view and F = 1, 134 times the
-    /// light comes back at roughness 0.1.
+    /// Defect: the visibility knows the roughness and the distribution does not: at grazing view and F = 1, up to 139 times
+    /// the light comes back at roughness 0.1.
     pub fn highlight_times_cosine(&self, v: DVec3, l: DVec3) -> f64 {
         let alpha = self.roughness * self.roughness;
         let h = ggx::half_vector(v, l);
