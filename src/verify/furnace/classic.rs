@@ -54,11 +54,11 @@ fn lobe_albedo(lobe: &satin::Lobe, v: DVec3) -> f64 {
 fn gauze() -> Vec<Claim> {
     let mut inputs = lobe_inputs(gauze::STRENGTH);
     inputs.push(Input::between("scatter_strength", gauze::SCATTER_STRENGTH));
-    // Below 1 the two differ by less, and at 0 gauze is meant to be opaque.
+    // From 1, as 0 means opaque gauze, not a weave.
     let density = Input::between("weave_density", (1.0, gauze::DENSITY.1));
     vec![
         claim("gauze", "directional albedo", ALBEDO_LIMIT, inputs, |x| {
-            x[6] * lobe_albedo(&lobe(x, false), direction(x[4], x[5].to_radians()))
+            lobe_albedo(&gauze::highlight(lobe(x, false), x[6]), direction(x[4], x[5].to_radians()))
         }),
         claim("gauze", "light from the front beyond a weave's", 1e-3, vec![density], |x| {
             1.0 - gauze::opacity(x[0], 1.0) - gauze::facing_transmittance_of_a_weave(x[0])

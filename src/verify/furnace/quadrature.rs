@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn what_does_not_settle_counts_for_more() {
-        // Every rule sees the other side of this, as none has settled before.
+        // No two rules in a row agree.
         let rules = std::cell::Cell::new(0);
         let restless = settled(|_| {
             rules.set(rules.get() + 1);

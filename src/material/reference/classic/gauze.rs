@@ -1,7 +1,6 @@
 //! Classic gauze: opacity by the angle of view alone, and the satin highlight under a colour of up to ten.
 
 use super::satin;
-use glam::DVec3;
 
 /// Range of the weave density.
 pub const DENSITY: (f64, f64) = (0.0, 200.0);
@@ -30,9 +29,9 @@ pub fn facing_transmittance_of_a_weave(density: f64) -> f64 {
     0.5f64.powf(half_opacity_cosine(density))
 }
 
-/// Highlight times the cosine of `l`: that of satin, times the scatter colour and its strength.
+/// The highlight: that of satin, times the strength of the scatter colour.
 ///
 /// Defect: two strengths, up to 20 and up to 10, multiply a lobe that is not normalised.
-pub fn highlight_times_cosine(lobe: &satin::Lobe, scatter: f64, v: DVec3, l: DVec3) -> f64 {
-    scatter * lobe.times_cosine(v, l)
+pub fn highlight(satin: satin::Lobe, scatter_strength: f64) -> satin::Lobe {
+    satin::Lobe { strength: satin.strength * scatter_strength, ..satin }
 }
