@@ -2,4 +2,4 @@
 
 mod furnace;
 
-pub use furnace::{ALBEDO_LIMIT, Claim, Input, Property, RANDOM_POINTS, claims, furnace};
+pub use furnace::{ALBEDO_LIMIT, Claim, Input, Measure, Property, RANDOM_POINTS, claims, furnace};

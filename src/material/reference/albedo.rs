@@ -119,9 +119,9 @@ pub fn fresnel_basis(mu: f64, t: f64, roughness: f64) -> [f64; FRESNEL_TERMS] {
     let [mu, t, roughness] = [mu, t, roughness].map(powers);
     for i in (0..=FRESNEL_DEGREE).rev() {
         for j in (0..=FRESNEL_DEGREE - i).rev() {
-            for k in 0..=largest_roughness_power(i, j) {
+            for roughness in &roughness[..=largest_roughness_power(i, j)] {
                 if let Some(term) = next.next() {
-                    *term = mu[i] * t[j] * roughness[k];
+                    *term = mu[i] * t[j] * roughness;
                 }
             }
         }

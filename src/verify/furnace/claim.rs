@@ -53,6 +53,9 @@ impl Input {
     }
 }
 
+/// A number from one number an input.
+pub type Measure = Box<dyn Fn(&[f64]) -> f64 + Send + Sync>;
+
 /// A promise about one formula: a value that must not exceed a limit, whatever the inputs.
 pub struct Claim {
     /// Whose formula.
@@ -65,8 +68,8 @@ pub struct Claim {
     pub limit: Option<f64>,
     /// What the value depends on.
     pub inputs: Vec<Input>,
-    /// The value, given one number an input.
-    pub value: Box<dyn Fn(&[f64]) -> f64 + Send + Sync>,
+    /// The value.
+    pub value: Measure,
 }
 
 impl std::fmt::Debug for Claim {

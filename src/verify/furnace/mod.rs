@@ -11,7 +11,7 @@ mod light;
 mod quadrature;
 mod standard;
 
-pub use claim::{Claim, Input};
+pub use claim::{Claim, Input, Measure};
 
 use serde::{Serialize, Serializer};
 use std::fmt;
