@@ -62,7 +62,7 @@
 //! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists
 //! draws, pipelines, vertex streams and textures, and what is left out and why. Nothing has touched the device yet:
 //! `vair inspect` prints just this. The resources then make what the plan lists and nothing else, and the frame records
-//! its passes: deform (skins and morphs, in compute), opaque, fur, transparent, tone mapping.
+//! its passes: deform (skins and morphs, in compute), sway (strands that lag behind), opaque, fur, transparent, tone mapping.
 //!
 //! # Conventions
 //! - World space is right-handed, Y up, metres, seconds. Angles are radians inside and degrees where a person writes

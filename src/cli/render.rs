@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use vair::gpu::{DeviceInfo, GpuOptions};
+use vair::material::Material;
 use vair::render::{FrameOptions, FrameReport, PictureFormat, Renderer};
 use vair::scene::Scene;
 
@@ -81,8 +82,17 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let mut frames_ms = Vec::new();
     let mut last = None;
     let progress = progress(count);
-    for Shot { path, offset_s } in arguments.shots() {
-        let options = FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+    let at = |offset_s: f64| FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+    let sways = |material: &Material| material.fur.as_ref().is_some_and(|fur| fur.inertia > 0.0);
+    let sways = scene.materials().iter().any(sways);
+    let mut reached = arguments.frames.as_ref().map_or(0, |frames| frames.start);
+    for Shot { path, frame, offset_s } in arguments.shots() {
+        // Strands come here on the same way whatever is drawn of it.
+        for offset_s in sequence::steps(reached, frame, arguments.fps).take_while(|_| sways) {
+            renderer.advance(&scene, &at(offset_s))?;
+        }
+        reached = frame;
+        let options = at(offset_s);
         let (picture, report) = renderer.render_reported(&scene, &options, format == PictureFormat::Exr)?;
         if to_stdout {
             output::print_bytes(&picture.encode(format)?)?;
@@ -126,6 +136,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
 /// One picture to make.
 struct Shot {
     path: PathBuf,
+    /// Number in the sequence.
+    frame: u32,
     /// Seconds after `--time`.
     offset_s: f64,
 }
@@ -138,9 +150,10 @@ impl RenderArguments {
 
     fn shots(&self) -> Box<dyn Iterator<Item = Shot> + '_> {
         match self.frame_numbers() {
-            None => Box::new(std::iter::once(Shot { path: self.out.clone(), offset_s: 0.0 })),
+            None => Box::new(std::iter::once(Shot { path: self.out.clone(), frame: 0, offset_s: 0.0 })),
             Some(frames) => Box::new(frames.map(|frame| Shot {
                 path: sequence::file(&self.out, frame),
+                frame,
                 offset_s: f64::from(frame) / f64::from(self.fps),
             })),
         }

@@ -98,6 +98,7 @@ impl Buffer {
         let mut block = lock(&inner.block);
         let mapped = block.as_mut().and_then(|block| block.allocation.mapped_slice_mut()).ok_or_else(problem)?;
         mapped.get_mut(byte_offset as usize..end).ok_or_else(problem)?.copy_from_slice(bytes);
+        inner.context.device.count_upload(bytes.len() as u64);
         Ok(())
     }
 

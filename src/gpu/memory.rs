@@ -1,5 +1,6 @@
 //! Device memory: one allocator, and a table of who holds what.
 
+use super::calls::Device;
 use super::error::GpuError;
 use ash::vk;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc};
@@ -27,6 +28,10 @@ pub struct MemoryReport {
     pub device_bytes: u64,
     /// Largest number of bytes so far.
     pub peak_bytes: u64,
+    /// Memory blocks that these lie in, each one `vkAllocateMemory`.
+    pub blocks: usize,
+    /// Bytes of the blocks.
+    pub block_bytes: u64,
     /// Bytes by object name, names ascending; objects of one name are summed.
     pub by_owner: Vec<(String, u64)>,
 }
@@ -50,7 +55,7 @@ pub(crate) struct Heap {
 impl Heap {
     pub(crate) fn new(
         instance: &ash::Instance,
-        device: &ash::Device,
+        device: &Device,
         physical_device: vk::PhysicalDevice,
         capacity_bytes: u64,
     ) -> Result<Self, GpuError> {
@@ -58,7 +63,7 @@ impl Heap {
         debug_settings.log_leaks_on_shutdown = false;
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.clone(),
-            device: device.clone(),
+            device: device.uncounted().clone(),
             physical_device,
             debug_settings,
             buffer_device_address: false,
@@ -114,9 +119,12 @@ impl Heap {
         for (name, bytes) in self.rows.values() {
             *owners.entry(name).or_default() += bytes;
         }
+        let blocks = self.allocator.generate_report();
         MemoryReport {
             device_bytes: self.bytes,
             peak_bytes: self.peak_bytes,
+            blocks: blocks.blocks.len(),
+            block_bytes: blocks.total_capacity_bytes,
             by_owner: owners.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
         }
     }

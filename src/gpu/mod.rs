@@ -17,6 +17,7 @@
 mod barrier;
 mod buffer;
 mod cache;
+mod calls;
 mod choose;
 mod descriptor;
 mod device;
@@ -42,6 +43,7 @@ pub use ash;
 pub use ash::vk;
 pub use barrier::ImageUse;
 pub use buffer::Buffer;
+pub use calls::CallCounts;
 pub use choose::{DeviceInfo, DeviceKind, DeviceReport, devices};
 pub use descriptor::{BindGroup, Resource};
 pub use device::{Gpu, GpuOptions};

@@ -1,5 +1,6 @@
 //! Command pools with their queries, recycled between submissions, and the times that they yield.
 
+use super::calls::Device;
 use super::device::{Context, lock};
 use super::error::GpuError;
 use ash::vk;
@@ -119,7 +120,7 @@ impl RawRecording {
         Ok(recording)
     }
 
-    pub(crate) fn destroy(self, device: &ash::Device) {
+    pub(crate) fn destroy(self, device: &Device) {
         for chunk in &self.chunks {
             // SAFETY: the submission that used it has finished.
             unsafe { device.destroy_query_pool(chunk.timestamps, None) };
@@ -271,7 +272,7 @@ fn ticks_between(start: u64, end: u64, bits: u32) -> u64 {
     end.wrapping_sub(start) & mask
 }
 
-fn reset(device: &ash::Device, chunk: &QueryChunk) {
+fn reset(device: &Device, chunk: &QueryChunk) {
     if chunk.timestamps != vk::QueryPool::null() {
         // SAFETY: host query reset is a required feature; no submission in flight uses the pool.
         unsafe { device.reset_query_pool(chunk.timestamps, 0, 2 * PASSES_PER_CHUNK) };

@@ -1,16 +1,15 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, deform, draws, tonemap};
+use super::pass::{Frame, Moving, deform, draws, sway, tonemap};
 use super::plan::{Draw, Pass};
 use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
 
 /// Records all passes of `frame`.
 pub fn record(encoder: &mut Encoder, frame: &Frame) {
     let plan = &frame.shot.plan;
-    if plan.passes.contains(&Pass::Deform) {
-        deform::record(encoder, frame);
-    }
+    let Frame { scene, shot, resources, motion, .. } = *frame;
+    record_motion(encoder, &Moving { scene, shot, resources, motion });
     let far_to_near = draws::far_to_near(&plan.transparent, frame);
     let lists: [(Pass, &[Draw]); 3] =
         [(Pass::Opaque, &plan.opaque), (Pass::Fur, &plan.fur), (Pass::Transparent, &far_to_near)];
@@ -19,6 +18,16 @@ pub fn record(encoder: &mut Encoder, frame: &Frame) {
         record_draws(encoder, frame, pass, list, last == Some(&pass));
     }
     tonemap::record(encoder, frame);
+}
+
+/// Records what moves vertices, without anything that is drawn.
+pub fn record_motion(encoder: &mut Encoder, moving: &Moving) {
+    if !moving.shot.plan.deforms.is_empty() {
+        deform::record(encoder, moving);
+    }
+    if !moving.shot.plan.sways.is_empty() {
+        sway::record(encoder, moving);
+    }
 }
 
 /// The first pass clears, the last one resolves; those between keep what there is.

@@ -6,7 +6,11 @@
 mod frame;
 mod frame_data;
 mod geometry;
+mod left_out;
+mod map;
 mod material;
+mod memory;
+mod motion;
 mod options;
 mod pass;
 mod picture;
@@ -15,28 +19,36 @@ mod plan;
 mod report;
 mod resources;
 mod stream;
+mod sway;
 mod targets;
 mod texture;
 
+pub use left_out::LeftOut;
+pub use map::StandIn;
+pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
 };
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
-pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
+pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
 pub use report::{CoatReport, FrameReport};
 pub use stream::Stream;
+pub use targets::Attachment;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
 use frame_data::FrameData;
 use glam::Vec4;
-use pass::Frame;
+use memory::PICTURE_NAME;
+use motion::Motion;
+use pass::{Frame, Moving};
 use resources::Resources;
 use std::path::PathBuf;
 use std::time::Instant;
+use sway::SwayMemory;
 use targets::Targets;
 
 /// Longest wait for one frame: a software device may take long, a lost one must not hang the caller.
@@ -113,6 +125,7 @@ impl Shot {
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
+        options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
@@ -132,6 +145,8 @@ pub struct Renderer {
     picture: Option<Image>,
     /// Which scene the resources belong to.
     scene: Option<u64>,
+    /// Strands that lag behind.
+    sway: SwayMemory,
 }
 
 impl Renderer {
@@ -146,9 +161,10 @@ impl Renderer {
     /// On a device that is there already, such as the host's ([`Gpu::from_host`]).
     ///
     /// # Errors
-    /// When the device is out of memory.
+    /// None: nothing is made before a plan asks for it.
     pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
-        Ok(Self { resources: Resources::new(&gpu)?, gpu, targets: None, picture: None, scene: None })
+        let resources = Resources::new(&gpu);
+        Ok(Self { resources, gpu, targets: None, picture: None, scene: None, sway: SwayMemory::default() })
     }
 
     /// The device.
@@ -182,13 +198,14 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), self.gpu.calls());
         let shot = Shot::new(scene, options)?;
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
         self.record_shot(&mut encoder, scene, &shot, options, &target)?;
         let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
         let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
         if keep_radiance && let Some(targets) = &self.targets {
@@ -205,7 +222,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory());
+        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory(), calls);
         Ok((picture, report))
     }
 
@@ -225,6 +242,49 @@ impl Renderer {
         self.record_shot(encoder, scene, &shot, options, target)
     }
 
+    /// Moves strands that lag behind on to `options.time_s` without drawing anything, on a submission of its own that is
+    /// waited for; where nothing sways it does nothing.
+    ///
+    /// A frame or step of the same clip follows the one before where its time is later by at most 0.1 s, and holds still
+    /// where it is the same; at any other time strands start from rest. Shorter steps follow the motion more closely.
+    ///
+    /// # Errors
+    /// Those of [`Shot::new`] and of the device.
+    pub fn advance(&mut self, scene: &Scene, options: &FrameOptions) -> Result<(), RenderError> {
+        let mut shot = Shot::new(scene, options)?;
+        let Plan { deforms, sways, .. } = &mut shot.plan;
+        if sways.is_empty() {
+            return Ok(());
+        }
+        // Strands only ask where their roots are.
+        deforms.retain(|deform| {
+            deform.stream == Stream::Position && sways.iter().any(|sway| sway.instance == deform.instance)
+        });
+        let motion = self.prepare(scene, &shot, options)?;
+        let mut encoder = self.gpu.encoder("advance")?;
+        let moving = Moving { scene, shot: &shot, resources: &self.resources, motion: &motion };
+        frame::record_motion(&mut encoder, &moving);
+        encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
+        self.keep(scene, options);
+        Ok(())
+    }
+
+    /// Makes what the plan lists, and what moves in it. Until [`Self::keep`], nothing counts as made: a frame that failed
+    /// half-way may have left streams and images without their contents.
+    fn prepare(&mut self, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Motion, RenderError> {
+        if self.scene.take() != Some(scene.id()) {
+            self.resources.forget_scene();
+        }
+        self.resources.prepare(scene, &shot.plan)?;
+        Ok(Motion::new(&self.gpu, &self.resources, scene, shot, options, &mut self.sway)?)
+    }
+
+    /// The frame's commands are complete.
+    fn keep(&mut self, scene: &Scene, options: &FrameOptions) {
+        self.scene = Some(scene.id());
+        self.sway.keep(scene, options);
+    }
+
     fn record_shot(
         &mut self,
         encoder: &mut Encoder,
@@ -233,27 +293,23 @@ impl Renderer {
         options: &FrameOptions,
         target: &Image,
     ) -> Result<(), RenderError> {
-        // Named again only when all is made: a frame that failed half-way may have left streams and images without their
-        // contents, and nothing of it is kept.
-        if self.scene.take() != Some(scene.id()) {
-            self.resources.forget_scene();
-        }
         if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
             // The old ones go first: two sets need not fit at once.
             self.targets = None;
         }
+        let motion = self.prepare(scene, shot, options)?;
         let targets = match self.targets.take() {
             Some(targets) => targets,
             None => Targets::new(&self.gpu, options)?,
         };
         let targets = self.targets.insert(targets);
         let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
-        self.resources.prepare(scene, &shot.plan)?;
         self.resources.make_pipeline(&tonemap)?;
         let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
-        let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
+        let resources = &self.resources;
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, targets, target };
         frame::record(encoder, &frame);
-        self.scene = Some(scene.id());
+        self.keep(scene, options);
         Ok(())
     }
 
@@ -263,9 +319,9 @@ impl Renderer {
             return Ok(picture);
         }
         Ok(self.gpu.image(&ImageDesc {
-            name: "picture",
+            name: PICTURE_NAME,
             size,
-            format: vk::Format::R8G8B8A8_UNORM,
+            format: PICTURE_FORMAT,
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,

@@ -1,7 +1,8 @@
 //! What one frame took: times, draws, memory, and what it left out.
 
-use super::plan::{DrawKind, LeftOut, Plan};
-use crate::gpu::{FrameTimes, MemoryReport, PassTime};
+use super::left_out::LeftOut;
+use super::plan::{DrawKind, Plan};
+use crate::gpu::{CallCounts, FrameTimes, MemoryReport, PassTime};
 use crate::scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,6 +19,8 @@ pub struct FrameReport {
     pub fur: Vec<CoatReport>,
     /// Device memory.
     pub memory: MemoryReport,
+    /// Vulkan calls and bytes from the call to the finished frame.
+    pub calls: CallCounts,
     /// What the frame did without.
     pub left_out: Vec<LeftOut>,
 }
@@ -31,7 +34,7 @@ pub struct CoatReport {
     pub layers: u32,
     /// Instances drawn: shells of all objects with this material.
     pub instances: u32,
-    /// Vertices on the device: those of the mesh, once.
+    /// Vertices on the device: those of the mesh, once; once a shell where they are duplicated.
     pub vertices_stored: u32,
 }
 
@@ -43,6 +46,7 @@ impl FrameReport {
         frame_ms: f64,
         pipelines_ms: f64,
         memory: MemoryReport,
+        calls: CallCounts,
     ) -> Self {
         Self {
             frame_ms,
@@ -50,6 +54,7 @@ impl FrameReport {
             passes: times.passes,
             fur: coats(scene, plan),
             memory,
+            calls,
             left_out: plan.left_out.clone(),
         }
     }
@@ -71,7 +76,7 @@ fn coats(scene: &Scene, plan: &Plan) -> Vec<CoatReport> {
         coat.instances += layers;
         if counted.insert((material, mesh, primitive)) {
             let vertices = &scene.asset().meshes[mesh].primitives[primitive].vertices;
-            coat.vertices_stored += vertices.positions.len() as u32;
+            coat.vertices_stored += vertices.positions.len() as u32 * plan.copies_of((mesh, primitive));
         }
     }
     coats.into_values().collect()

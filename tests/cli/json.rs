@@ -45,6 +45,7 @@ fn inspect() {
     let report = folder.run(["inspect", "quad.gltf", "--preset", "leopard", "--json"]).success().json();
     has(&report, &["/passes/0/name", "/pipelines/0/name", "/pipelines/0/state", "/memory/target_bytes"]);
     has(&report, &["/textures/0/name", "/textures/0/format", "/textures/0/bytes", "/left_out/0/what", "/lint"]);
+    has(&report, &["/attachments/0/name", "/memory/by_owner/depth", "/pipelines/0/state/bindings", "/left_out/0/why"]);
     let names: Vec<_> = report["pipelines"].as_array().unwrap().iter().map(|pipeline| &pipeline["name"]).collect();
     assert!(names.iter().any(|name| **name == "tonemap.frag"), "{names:?}");
     // 1280 x 720: 8 bytes of colour and 4 of depth at 4 samples, 8 resolved, 4 of picture.

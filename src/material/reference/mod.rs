@@ -15,5 +15,6 @@ pub mod light;
 pub mod lock;
 pub mod standard;
 pub mod strand;
+pub mod sway;
 pub mod tonemap;
 pub mod uv;
