@@ -99,18 +99,16 @@ pub fn claims() -> Vec<Claim> {
             "opacity outside 0 to 1, by",
             Some(0.0),
             vec![
-                Input::between("profile", (-1e3, 1.0)),
-                Input::between("height", (0.0, 1.0)),
-                Input::of::<Fur>("cutoff_start"),
-                Input::of::<Fur>("cutoff_end"),
+                Input::between("margin", (-1e3, 1.0)),
                 Input::between("slope", (0.0, 4.0)),
+                Input::between("threshold", (0.0, 1.0)),
                 Input::of::<Fur>("thickness"),
-                Input::between("half_length_in_cells", (0.0, 10.0)),
+                Input::between("length_in_cells", (0.0, 10.0)),
             ],
             Box::new(|x| {
-                let threshold = strand::threshold(x[1], x[2], x[3], false);
-                let mean = strand::mean_coverage(threshold, 0.5 * x[5], x[6]);
-                outside(strand::opacity(x[0], threshold, x[4], mean))
+                let radius = 0.5 * x[3];
+                let (cap, width) = (strand::cross_section(x[2], radius), strand::width(x[2], radius));
+                outside(strand::opacity(x[0], x[1], strand::slab_opacity(cap, width, x[4])))
             }),
         ),
     ];
