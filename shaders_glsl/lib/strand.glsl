@@ -204,6 +204,10 @@ float strand_light_through_coat(float height, float occlusion, float cosine_to_l
     return exp(-depth_at_root * (1.0 - height) / max(cosine_to_light, 0.05));
 }
 
+// cos(phi / 2) for a direction along the fibre, which has no angle around it: its mean, 2 / pi, so that the lobe keeps its
+// integral.
+const float STRAND_HALF_COSINE_ALONG = 0.636619772;
+
 // Scattering lobe of a fibre: Gaussian in the sum of the sines of the two angles along the fibre (mean `shift`,
 // variance `variance`), cos(phi / 2) / 4 around it. Its integral over all directions is at most 1; no cosine
 // belongs to it. Azimuthal part: Marschner et al. 2003, "Light Scattering from Human Hair Fibers", section 5.
@@ -218,7 +222,7 @@ float strand_lobe(vec3 tangent, vec3 to_eye, vec3 to_light, float shift, float v
     float light_squared = dot(light_across, light_across);
     // The half angle's cosine as half the length of a sum: 0.5 + 0.5 cos would cancel where the eye looks into the light.
     vec3 sum = eye_across * inversesqrt(max(eye_squared, 1e-30)) + light_across * inversesqrt(max(light_squared, 1e-30));
-    float half_cosine = eye_squared * light_squared > 1e-12 ? 0.5 * length(sum) : 1.0;
+    float half_cosine = eye_squared * light_squared > 1e-12 ? 0.5 * length(sum) : STRAND_HALF_COSINE_ALONG;
     return along * 0.25 * half_cosine;
 }
 

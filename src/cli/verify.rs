@@ -46,6 +46,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<()> {
     if let Some(message) = log.messages().first() {
         bail!("the validation layer says: {message}");
     }
+    if let Some(broken) = report.properties.iter().find(|property| property.fails()) {
+        bail!("a formula breaks its promise: {broken}");
+    }
     let failed: Vec<_> =
         report.functions.iter().filter(|function| !function.pass).map(|function| function.name).collect();
     match failed.as_slice() {
@@ -92,6 +95,13 @@ fn as_text(report: &Report) -> String {
             text += &failure(function);
         }
     }
+    if !report.properties.is_empty() {
+        text += "\nmaterials, by their formulas; `classic` is what older engines evaluate\n";
+        for property in &report.properties {
+            text += &format!("{property}\n");
+        }
+        text += "\n";
+    }
     let passed = report.functions.iter().filter(|function| function.pass).count();
     let (count, device, seconds) = (report.functions.len(), &report.device, report.seconds);
     text + &format!("{passed} of {count} functions meet their limits on {device}, {seconds:.1} s\n")
@@ -113,6 +123,7 @@ fn as_json(report: &Report) -> Value {
     json!({
         "device": report.device, "seconds": (report.seconds * 1e3).round() / 1e3, "pass": report.pass(),
         "functions": report.functions.iter().map(function_as_json).collect::<Vec<_>>(),
+        "furnace": report.properties,
     })
 }
 

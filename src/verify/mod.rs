@@ -1,13 +1,15 @@
-//! Every shader function against its double-precision twin, on the device.
+//! Every shader function against its double-precision twin, on the device; and what the formulas themselves promise.
 //!
 //! `build.rs` makes one compute shader of every function of `shaders_glsl/lib` ([`crate::shader::function`]); a
 //! [`Twin`] says for each what it may be given, what it should answer and how far it may be off. [`run`] gives the device
 //! [`SAMPLES`] seeded inputs and the extremes, all of a function in one dispatch, and judges every answer: an error is at
-//! most `abs + rel |x|`, and a result that is not finite is always a failure.
+//! most `abs + rel |x|`, and a result that is not finite is always a failure. [`furnace`] then asks the twins what no
+//! comparison can: that materials give no more light than they get.
 
 mod dispatch;
 mod domain;
 mod error;
+mod furnace;
 mod judge;
 mod samples;
 mod twin;
@@ -15,6 +17,7 @@ mod twins;
 
 pub use domain::Domain;
 pub use error::VerifyError;
+pub use furnace::{ALBEDO_LIMIT, Claim, Input, Measure, Property, RANDOM_POINTS, claims, furnace};
 pub use judge::{FunctionReport, Worst};
 pub use twin::{Given, Limit, Rule, Twin};
 pub use twins::twins;
@@ -36,26 +39,32 @@ pub struct Report {
     pub seconds: f64,
     /// One entry a function, in the order of [`twins`].
     pub functions: Vec<FunctionReport>,
+    /// What the formulas promise; empty where single functions were asked for.
+    pub properties: Vec<Property>,
 }
 
 impl Report {
-    /// Every function meets its limit.
+    /// Every function meets its limit, and every formula of ours keeps its promises.
     pub fn pass(&self) -> bool {
-        self.functions.iter().all(|function| function.pass)
+        self.functions.iter().all(|function| function.pass) && !self.properties.iter().any(Property::fails)
     }
 }
 
-/// Evaluates the functions whose names contain `only` (all, without) on the device and judges them.
+/// Evaluates the functions whose names contain `only` on the device and judges them; without, all functions and then the
+/// formulas.
 ///
 /// # Errors
 /// [`VerifyError::UnknownFunction`] where no name contains `only`, [`VerifyError::NoTwin`] where a function of the library
 /// has none, [`VerifyError::Gpu`] what the device answers. A function that misses its limit is no error: see
 /// [`Report::pass`].
 pub fn run(gpu: &Gpu, only: Option<&str>) -> Result<Report, VerifyError> {
-    run_with(gpu, only, SAMPLES)
+    let started = Instant::now();
+    let report = run_with(gpu, only, SAMPLES)?;
+    let properties = if only.is_none() { furnace(RANDOM_POINTS) } else { Vec::new() };
+    Ok(Report { properties, seconds: started.elapsed().as_secs_f64(), ..report })
 }
 
-/// [`run`] with another number of seeded inputs a function.
+/// The functions alone, with another number of seeded inputs each.
 ///
 /// # Errors
 /// See [`run`].
@@ -66,7 +75,8 @@ pub fn run_with(gpu: &Gpu, only: Option<&str>, samples: u32) -> Result<Report, V
     }
     let chosen = chosen(only)?;
     let functions = chosen.into_iter().map(|twin| check(gpu, twin, samples)).collect::<Result<_, _>>()?;
-    Ok(Report { device: gpu.info().name.clone(), seconds: started.elapsed().as_secs_f64(), functions })
+    let (device, seconds) = (gpu.info().name.clone(), started.elapsed().as_secs_f64());
+    Ok(Report { device, seconds, functions, properties: Vec::new() })
 }
 
 /// Evaluates one function on the device and judges it by `twin`.

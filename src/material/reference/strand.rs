@@ -223,13 +223,16 @@ pub fn light_through_coat(height: f64, occlusion: f64, cosine_to_light: f64) -> 
     ((1.0 - occlusion).max(1e-3).ln() * (1.0 - height) / cosine_to_light.max(0.05)).exp()
 }
 
+/// Cosine around the fibre of a direction along it, which has none: there cos(phi / 2) takes its mean, 2 / pi.
+pub const COSINE_ALONG: f64 = 8.0 / (PI * PI) - 1.0;
+
 /// One scattering lobe of a fibre; its integral over all directions is at most 1.
 pub fn lobe(tangent: DVec3, to_eye: DVec3, to_light: DVec3, shift: f64, variance: f64) -> f64 {
     let (sine_eye, sine_light) = (tangent.dot(to_eye), tangent.dot(to_light));
     let along = (-(sine_eye + sine_light - shift).powi(2) / (2.0 * variance)).exp() / (2.0 * PI * variance).sqrt();
     let (eye, light) = (to_eye - sine_eye * tangent, to_light - sine_light * tangent);
     let lengths = eye.length_squared() * light.length_squared();
-    let cosine = if lengths > 1e-12 { eye.dot(light) / lengths.sqrt() } else { 1.0 };
+    let cosine = if lengths > 1e-12 { eye.dot(light) / lengths.sqrt() } else { COSINE_ALONG };
     along * 0.25 * (0.5 + 0.5 * cosine).max(0.0).sqrt()
 }
 
