@@ -23,7 +23,7 @@ pub const RANDOM_POINTS: usize = 10_000;
 pub const ALBEDO_LIMIT: f64 = 1.0 + 1e-3;
 
 /// How far one promise was kept.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Property {
     /// Whose formula.
     pub material: &'static str,
