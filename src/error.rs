@@ -3,6 +3,8 @@
 use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
+#[cfg(feature = "measure")]
+use crate::oracle::OracleError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
 
@@ -25,4 +27,8 @@ pub enum Error {
     /// A picture cannot be made or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A reference cannot be made.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
 }
