@@ -6,12 +6,12 @@
 mod headless;
 
 use glam::{DVec2, DVec3, Vec3};
+use vair::FrameOptions;
 use vair::material::reference::albedo::gauss_legendre;
 use vair::material::reference::hash;
 use vair::material::reference::strand::{Strand, mean_coverage};
 use vair::oracle::{Coat, Corner, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render};
 use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene};
-use vair::FrameOptions;
 
 /// Three numbers in [0, 1).
 fn random(stream: i32, index: usize) -> DVec3 {
@@ -125,7 +125,10 @@ fn hits_are_the_first_of_a_fine_march() {
                 let [a, b, c] = triangle.each_ref().map(|corner| corner.at(hit.height));
                 let place = a * hit.barycentric.x + b * hit.barycentric.y + c * hit.barycentric.z;
                 let off = (place - ray.at(hit.distance_m)).length();
-                assert!(off < 1e-9 && hit.barycentric.min_element() > -1e-9, "{name} {index}: {hit:?} is not on its shell");
+                assert!(
+                    off < 1e-9 && hit.barycentric.min_element() > -1e-9,
+                    "{name} {index}: {hit:?} is not on its shell"
+                );
             }
             match (found, marched) {
                 (Some((hit, _)), Some(marched)) => {
@@ -171,7 +174,9 @@ fn straight_cones_are_met_where_the_closed_form_says() {
         let slant = DVec2::new(cosine, sine) * 0.9;
         let foot = DVec2::new(x, y) * 4.0 + 4.0;
         let ray = Ray::new((foot + 2.0 * slant).extend(10.0), -(slant * 2.0 / 9.7).extend(1.0).normalize(), 1e3);
-        let at = |height: f64| (ray.origin - ray.direction * ((10.0 - 0.3 - height * length_m) / ray.direction.z)).truncate();
+        let at = |height: f64| {
+            (ray.origin - ray.direction * ((10.0 - 0.3 - height * length_m) / ray.direction.z)).truncate()
+        };
         let (start, step) = (at(0.0), at(1.0) - at(0.0));
         let mut first: Option<f64> = None;
         for cell in 0..12 * 12 * 3 {
@@ -268,7 +273,8 @@ fn smooth_density_converges_with_the_order_of_its_opacity() {
     let integral = |low: f64, high: f64, value: &dyn Fn(f64) -> f64| -> f64 {
         rule.iter().map(|(node, weight)| weight * (high - low) * value(low + (high - low) * node)).sum()
     };
-    let exact = integral(0.0, 1.0, &|height| color(height) * density(height) * (-integral(height, 1.0, &density)).exp());
+    let exact =
+        integral(0.0, 1.0, &|height| color(height) * density(height) * (-integral(height, 1.0, &density)).exp());
     let layered = |layers: usize, opacity: fn(f64) -> f64| {
         let step = 1.0 / layers as f64;
         let (radiance, _) = (0..layers).rev().fold((0.0, 1.0), |(radiance, left), layer| {
@@ -347,7 +353,10 @@ fn what_has_no_limit_is_refused() {
     let mut view = View::knot();
     let small = OracleOptions { size: [4, 4], samples: 2, seed: 0 };
     assert!(matches!(view.oracle(OracleOptions { samples: 3, ..small }), Err(OracleError::Samples { samples: 3 })));
-    assert!(matches!(view.oracle(OracleOptions { size: [0, 4], ..small }), Err(OracleError::Size { width: 0, height: 4 })));
+    assert!(matches!(
+        view.oracle(OracleOptions { size: [0, 4], ..small }),
+        Err(OracleError::Size { width: 0, height: 4 })
+    ));
     view.oracle(small).unwrap();
     let fur = view.scene.materials_mut().iter_mut().find_map(|material| material.fur.as_mut()).unwrap();
     fur.tip_fade = 0.1;

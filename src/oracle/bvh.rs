@@ -34,9 +34,14 @@ impl Bounds {
 const LEAF_ITEMS: usize = 2;
 
 enum Node {
-    Leaf { first: usize, end: usize },
+    Leaf {
+        first: usize,
+        end: usize,
+    },
     /// The left child follows its parent.
-    Fork { right: usize },
+    Fork {
+        right: usize,
+    },
 }
 
 /// The tree; items are indices of the list that it was made from.

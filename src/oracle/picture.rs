@@ -87,8 +87,8 @@ fn pixel(stage: &Stage, shading: &Shading, [x, y]: [u32; 2], options: &OracleOpt
             let [right, down, _] = pcg3d([y * width + x, 2 * stratum + of_pair, options.seed]);
             let jitter = DVec2::new(f64::from(right), f64::from(down)) / 4_294_967_296.0;
             let in_pixel = (corner + jitter) / DVec2::new(f64::from(columns), f64::from(rows));
-            let place = (DVec2::new(f64::from(x), f64::from(y)) + in_pixel)
-                / DVec2::new(f64::from(width), f64::from(height));
+            let place =
+                (DVec2::new(f64::from(x), f64::from(y)) + in_pixel) / DVec2::new(f64::from(width), f64::from(height));
             let ray = shading.eye.ray(DVec2::new(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y));
             stage.first(&ray).map_or(DVec4::ZERO, |met| shading.radiance(stage, &ray, &met).extend(1.0))
         });

@@ -226,8 +226,7 @@ fn unsupported(material: &str, problem: &str) -> OracleError {
 
 /// More and more shells of partial opacity hide everything: only strands that are there or not have a limit.
 fn has_limit(fur: &Fur, material: &str) -> Result<(), OracleError> {
-    let maps =
-        [("height_map", fur.height_map), ("distribution_map", fur.distribution_map), ("comb_map", fur.comb_map)];
+    let maps = [("height_map", fur.height_map), ("distribution_map", fur.distribution_map), ("comb_map", fur.comb_map)];
     if let Some((map, _)) = maps.iter().find(|(_, map)| map.is_some()) {
         return Err(unsupported(material, &format!("the reference does not sample {map}; leave it out")));
     }
