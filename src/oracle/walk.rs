@@ -170,7 +170,7 @@ impl Search<'_> {
         let (mut before, mut after) = ((from.height, nearer(from.skin)), (to.height, nearer(to.skin)));
         for _ in 0..8 {
             let height = before.0 + (after.0 - before.0) * before.1 / (before.1 - after.1);
-            if !((height - after.0).abs() > 0.01 * SMALLEST_SPAN) {
+            if (height - after.0).abs() <= 0.01 * SMALLEST_SPAN || !height.is_finite() {
                 break;
             }
             (before, after) = (after, (height, nearer(self.station(height).skin)));
