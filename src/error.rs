@@ -4,6 +4,8 @@ use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
 #[cfg(feature = "measure")]
+use crate::oracle::OracleError;
+#[cfg(feature = "measure")]
 use crate::profile::ProfileError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
@@ -37,4 +39,8 @@ pub enum Error {
     #[cfg(feature = "measure")]
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// A reference cannot be made.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
 }

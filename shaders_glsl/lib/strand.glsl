@@ -24,14 +24,14 @@ struct StrandPath {
     vec3 normal;          // unit vector
     float radius;         // of strands at their root, in cells
     float entry;          // where the ray comes in: 1 from above, -1 from below
-    float enough;         // margin from which on a strand fills the pixel; greater ones are this one
+    float enough;         // half a pixel in root radii: the margin at which a strand fills it
 };
 
 // Thinner strands, in cells, are none: their profile would be all rounding.
 const float STRAND_SMALLEST_RADIUS = 1e-3;
 
 struct StrandHit {
-    float margin; // how far the profile exceeds the threshold at most; negative: no strand is met
+    float margin; // how far inside a strand the ray comes, in root radii; negative: it misses all
     float place;  // on the path: where the ray enters the first strand, or comes closest to one
     float random; // in [0, 1), one number a strand
 };
@@ -63,8 +63,12 @@ StrandHit strand_meet(StrandPath path, ivec3 cell) {
         best = clamp((along - tilt * aside * inversesqrt(max(1.0 - tilt * tilt, 1e-6))) / half_length, -1.0, 1.0);
     }
     float from_axis = length(vec2(aside, best * half_length - along));
-    float margin = full_length * (1.0 - from_axis / radius) - (path.threshold + best * path.threshold_rise);
-    if (margin <= 0.0) { return StrandHit(margin, best, own_random); }
+    float above = full_length - (path.threshold + best * path.threshold_rise);
+    float margin = above - full_length * from_axis / radius;
+    // In root radii. What is thinner than a pixel covers no more of it than its own width.
+    float in_radii = radius / (full_length * path.radius);
+    float seen = min(margin * in_radii, 2.0 * above * in_radii - path.enough);
+    if (margin <= 0.0) { return StrandHit(seen, best, own_random); }
 
     // The zero: where the distance from the axis is the radius that the threshold leaves, a quadratic in the place. From
     // the maximum towards the entry it is the first of the two; the other is the mirrored cone's. None lies before the
@@ -81,7 +85,7 @@ StrandHit strand_meet(StrandPath path, ivec3 cell) {
     float to_entry = (path.entry - best) * path.entry;
     if (to_first > -1e-4) { to_entry = min(to_entry, to_first); }
     if (to_second > -1e-4) { to_entry = min(to_entry, to_second); }
-    return StrandHit(margin, best + max(to_entry, 0.0) * path.entry, own_random);
+    return StrandHit(seen, best + max(to_entry, 0.0) * path.entry, own_random);
 }
 
 // Of two hits the first, or where not both are inside a strand the one with the larger margin; with the larger margin.
@@ -165,8 +169,8 @@ float strand_unresolved(float slope) {
     return smoothstep(0.75, 2.0, slope);
 }
 
-// Opacity where the profile exceeds its threshold by `margin`, one pixel wide at the edge. `slope` is the change of the
-// profile over a pixel; below the eye's resolution (slope > 1) it fades to the mean.
+// Opacity at a margin, one pixel wide at the edge. `slope` is the change of the margin over a pixel; below the eye's
+// resolution (slope > 1) it fades to the mean.
 float strand_opacity(float margin, float slope, float mean) {
     float edge = clamp(margin / max(slope, 1e-6) + 0.5, 0.0, 1.0);
     return mix(edge, mean, strand_unresolved(slope));

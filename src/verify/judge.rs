@@ -118,7 +118,8 @@ fn verdict(twin: &Twin, floats: &[bool], words: &[u32], found: &[f64]) -> Verdic
     if found.len() != expected.len() || found.iter().chain(&expected).any(|value| !value.is_finite()) {
         return Verdict { of_limit: f64::MAX, ..Verdict::default() };
     }
-    let plain = against(twin.limit, found, &expected, &vec![0.0; found.len()]);
+    let allowed = twin.allowed(words, found.len());
+    let plain = against(twin.limit, found, &expected, &allowed);
     if plain.of_limit <= 1.0 {
         return plain;
     }
@@ -126,7 +127,7 @@ fn verdict(twin: &Twin, floats: &[bool], words: &[u32], found: &[f64]) -> Verdic
     let judged = match twin.rule {
         Rule::Plain => return plain,
         Rule::Conditioned(ulps) => {
-            let mut growth = vec![0.0; found.len()];
+            let mut growth = allowed;
             for input in (0..words.len()).filter(|input| floats[*input]) {
                 let ends = [-1, 1].map(|sign| moved(&|at| if at == input { sign * i64::from(ulps) } else { 0 }));
                 for (at, growth) in growth.iter_mut().enumerate() {
@@ -144,8 +145,7 @@ fn verdict(twin: &Twin, floats: &[bool], words: &[u32], found: &[f64]) -> Verdic
                 let steps: Vec<_> = words.iter().map(|_| (random.below(3) as i64 - 1) * ulps).collect();
                 moved(&|at| steps[at])
             });
-            let zeros = vec![0.0; found.len()];
-            let near = alone.chain(jointly).map(|expected| against(twin.limit, found, &expected, &zeros));
+            let near = alone.chain(jointly).map(|expected| against(twin.limit, found, &expected, &allowed));
             near.fold(plain, |best, near| if near.of_limit < best.of_limit { near } else { best })
         }
     };

@@ -12,6 +12,8 @@ pub struct Twin {
     pub domains: &'static [Domain],
     /// How far a result may be off.
     pub limit: Limit,
+    /// What of a result's error is allowed beside the limit, a component: of the same inputs.
+    pub allowance: Option<fn(&mut Given<'_>) -> Vec<f64>>,
     /// What an error is measured against.
     pub rule: Rule,
     /// Share of the samples that may miss the limit: nothing but where the function leaves out on purpose what the twin
@@ -64,7 +66,16 @@ impl Twin {
         domains: &'static [Domain],
         value: fn(&mut Given<'_>) -> Vec<f64>,
     ) -> Self {
-        Self { name, domains, limit: Limit::DEFAULT, rule: Rule::Plain, missed: 0.0, value, used: |_| {} }
+        Self {
+            name,
+            domains,
+            limit: Limit::DEFAULT,
+            allowance: None,
+            rule: Rule::Plain,
+            missed: 0.0,
+            value,
+            used: |_| {},
+        }
     }
 
     pub(super) const fn limit(mut self, rel: f64, abs: f64) -> Self {
@@ -77,6 +88,11 @@ impl Twin {
         self
     }
 
+    pub(super) const fn allowance(mut self, allowance: fn(&mut Given<'_>) -> Vec<f64>) -> Self {
+        self.allowance = Some(allowance);
+        self
+    }
+
     pub(super) const fn missed(mut self, share: f64) -> Self {
         self.missed = share;
         self
@@ -85,6 +101,11 @@ impl Twin {
     pub(super) const fn used(mut self, used: fn(&mut [f64])) -> Self {
         self.used = used;
         self
+    }
+
+    /// What is allowed beside the limit, for that many components.
+    pub(super) fn allowed(&self, words: &[u32], components: usize) -> Vec<f64> {
+        self.allowance.map_or_else(|| vec![0.0; components], |allowance| allowance(&mut Given(words.iter())))
     }
 
     /// The twin's value for one invocation's words.

@@ -11,52 +11,59 @@ pub const REACH: f64 = 0.5;
 /// Thinner strands, in cells, are none.
 pub const SMALLEST_RADIUS: f64 = 1e-3;
 
-/// A strand of the lattice, as it meets a place on the surface.
+/// A procedural strand, if a surface passes close by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strand {
-    /// From the place to its axis, across the strand, in cells.
-    pub across: DVec3,
-    /// Of its root, in cells, > 0.
-    pub radius: f64,
-    /// Share of the coat's length that it has, in [0.75, 1].
-    pub full_length: f64,
-    /// In [0, 1).
+    /// Where it roots, in cells.
+    pub point: DVec3,
+    /// Its own number in [0, 1).
     pub random: f64,
 }
 
 impl Strand {
-    /// 1 on the axis of a full-length strand, falling linearly to 0 at its root radius and below it outside.
-    pub fn profile(&self, distance: f64) -> f64 {
-        self.full_length * (1.0 - distance / self.radius)
+    /// The one of a lattice cell, given by its lower corner.
+    pub fn of_cell(cell: DVec3) -> Self {
+        let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
+        let point = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER;
+        Self { point, random: (random[0] * 97.0 + random[1] * 57.0).fract() }
+    }
+
+    /// Profile on its axis: how far up the thresholds it reaches.
+    pub fn full_length(&self) -> f64 {
+        0.75 + 0.25 * self.random
+    }
+
+    /// Its point seen from a place on the surface: the offset along the surface, and the share of the root radius that
+    /// its height off the surface leaves; the share is not positive where it is out of reach.
+    pub fn offset(&self, position: DVec3, normal: DVec3) -> (DVec3, f64) {
+        let offset = self.point - position;
+        let height = offset.dot(normal);
+        (offset - height * normal, 1.0 - (height / REACH).powi(2))
     }
 }
 
-/// The strand of a cell, seen from a place on the surface; `position` in cells, `normal` a unit vector, `radius` in cells.
-/// None where its point is too far off the surface.
-pub fn of_cell(cell: DVec3, position: DVec3, normal: DVec3, radius: f64) -> Option<Strand> {
-    let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
-    let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - position;
-    let height = offset.dot(normal);
-    let radius = radius * (1.0 - (height / REACH).powi(2));
-    let random = (random[0] * 97.0 + random[1] * 57.0).fract();
-    let (across, full_length) = (offset - height * normal, 0.75 + 0.25 * random);
-    (radius >= SMALLEST_RADIUS).then_some(Strand { across, radius, full_length, random })
-}
-
 /// All strands within `reach` cells of a place, and some beyond.
-pub fn around(position: DVec3, normal: DVec3, radius: f64, reach: f64) -> impl Iterator<Item = Strand> {
+pub fn around(position: DVec3, reach: f64) -> impl Iterator<Item = Strand> {
     let home = position.floor();
     let cells = (reach + JITTER + REACH).ceil() as i32;
     let steps = move || (-cells..=cells).map(f64::from);
     let steps = steps().flat_map(move |x| steps().flat_map(move |y| steps().map(move |z| DVec3::new(x, y, z))));
-    steps.filter_map(move |step| of_cell(home + step, position, normal, radius))
+    steps.map(move |step| Strand::of_cell(home + step))
 }
 
-/// Profile and random number of the strongest procedural strand at a place. Looks at every cell that can matter.
+/// Profile and random number of the strongest procedural strand at a place: 1 on the axis of a full-length strand,
+/// falling linearly to 0 at its root radius and below it outside. `position` is in cells, `normal` a unit vector, `radius`
+/// in cells. Looks at every cell that can matter.
 pub fn field(position: DVec3, normal: DVec3, radius: f64) -> (f64, f64) {
-    around(position, normal, radius, 0.5)
-        .map(|strand| (strand.profile(strand.across.length()), strand.random))
-        .fold((-1e3, 0.0), |nearest, strand| if strand.0 > nearest.0 { strand } else { nearest })
+    let mut nearest = (-1e3, 0.0);
+    for strand in around(position, 0.5) {
+        let (across, share) = strand.offset(position, normal);
+        let profile = strand.full_length() * (1.0 - across.length() / (radius * share));
+        if share > 0.0 && profile > nearest.0 {
+            nearest = (profile, strand.random);
+        }
+    }
+    nearest
 }
 
 /// The part of a view ray that a shell stands for; see the shader. Lengths in cells.
@@ -76,14 +83,14 @@ pub struct Path {
     pub radius: f64,
     /// 1 where the ray comes in from above, -1 from below.
     pub entry: f64,
-    /// Margin from which on a strand fills the pixel, > 0.
+    /// Half a pixel in root radii: the margin from which on a strand fills it, > 0.
     pub enough: f64,
 }
 
 /// What a ray meets in a slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// How far the profile exceeds the threshold at most.
+    /// How far inside a strand the ray comes, in root radii.
     pub margin: f64,
     /// Where in [-1, 1] the ray enters the first strand, if it meets one.
     pub place: f64,
@@ -94,19 +101,23 @@ pub struct Hit {
 /// No strand.
 const NONE: Hit = Hit { margin: -1e3, place: 0.0, random: 0.0 };
 
-/// What the ray meets of one strand, found by halving.
+/// What the ray meets of one strand, found by halving. What is thinner than a pixel counts by its width.
 pub fn meet(path: &Path, strand: &Strand) -> Hit {
-    let distance = |place: f64| (strand.across - place * path.half_segment).length();
-    let margin = |place: f64| strand.profile(distance(place)) - path.threshold - place * path.threshold_rise;
+    let (across, share) = strand.offset(path.middle, path.normal);
+    let (radius, full_length) = (path.radius * share, strand.full_length());
+    if radius < SMALLEST_RADIUS {
+        return NONE;
+    }
+    let threshold = |place: f64| path.threshold + place * path.threshold_rise;
+    let distance = |place: f64| (across - place * path.half_segment).length();
+    let margin = |place: f64| full_length * (1.0 - distance(place) / radius) - threshold(place);
     let best = maximum(&margin);
     let largest = margin(best);
     let place = if largest > 0.0 { first_inside(&margin, path.entry, best) } else { best };
-    Hit { margin: largest, place, random: strand.random }
-}
-
-/// What the ray meets of the strand in one cell.
-pub fn meet_cell(path: &Path, cell: DVec3) -> Hit {
-    of_cell(cell, path.middle, path.normal, path.radius).map_or(NONE, |strand| meet(path, &strand))
+    // Lengths of the profile as lengths across the strand, in root radii.
+    let in_radii = share / full_length;
+    let width = 2.0 * (full_length - threshold(best)) * in_radii;
+    Hit { margin: (largest * in_radii).min(width - path.enough), place, random: strand.random }
 }
 
 /// Of two hits the first, or where neither is inside a strand the nearer; with the larger margin.
@@ -123,7 +134,7 @@ pub fn first(a: Hit, b: Hit, entry: f64) -> Hit {
 pub fn walk(path: &Path) -> Hit {
     let half_segment = path.half_segment - path.half_segment.dot(path.normal) * path.normal;
     let path = &Path { half_segment, ..*path };
-    let strands = around(path.middle, path.normal, path.radius, half_segment.length() + 0.5);
+    let strands = around(path.middle, half_segment.length() + 0.5);
     let hit = strands.fold(NONE, |hit, strand| first(hit, meet(path, &strand), path.entry));
     Hit { margin: hit.margin.min(path.enough), ..hit }
 }
@@ -186,7 +197,7 @@ pub fn unresolved(slope: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Opacity where the profile exceeds its threshold by `margin`, one pixel wide at the edge.
+/// Opacity at a margin, one pixel wide at the edge.
 pub fn opacity(margin: f64, slope: f64, mean: f64) -> f64 {
     let edge = (margin / slope.max(1e-6) + 0.5).clamp(0.0, 1.0);
     edge + (mean - edge) * unresolved(slope)
@@ -351,7 +362,7 @@ mod tests {
                         normal,
                         radius: 0.35,
                         entry: 1.0,
-                        enough: 1.0,
+                        enough: 1e-3,
                     };
                     f64::from(u8::from(walk(&path).margin > 0.0))
                 };
@@ -395,7 +406,7 @@ mod tests {
                     normal,
                     radius: 0.4,
                     entry,
-                    enough: 1.0,
+                    enough: 1e-3,
                 };
                 let hit = walk(&path);
                 let marched = (0..=2000)

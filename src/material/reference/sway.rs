@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Longest step, seconds.
-pub const LONGEST_STEP_S: f64 = 0.1;
+pub const LONGEST_STEP_S: f64 = 0.1f32 as f64;
 
 /// The tip of a strand.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
