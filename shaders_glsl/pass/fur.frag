@@ -179,7 +179,8 @@ void main() {
             if (SAMPLING != 1u) { path.half_segment += 0.5 * (up - down); }
         }
         slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
-        path.enough = 0.5 * slope;
+        // Without edges as wide as a pixel, a strand is met or it is not.
+        path.enough = ALPHA == 2u ? 0.0 : 0.5 * slope;
         StrandHit hit = strand_walk(path);
         // Means are seen in the middle.
         place = SAMPLING == 1u ? 0.0 : hit.place * (1.0 - strand_unresolved(slope));
