@@ -4,6 +4,8 @@ use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
 use crate::render::RenderError;
+#[cfg(feature = "measure")]
+use crate::report::ReportError;
 use crate::scene::SceneError;
 
 /// Anything that this crate can fail with. Each message is one line: what, where, and what to do.
@@ -25,4 +27,8 @@ pub enum Error {
     /// A picture cannot be made or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A report cannot be made or written.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Report(#[from] ReportError),
 }

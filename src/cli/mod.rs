@@ -10,6 +10,7 @@ mod output;
 mod presets;
 mod quality;
 mod render;
+mod report;
 mod scene;
 mod sequence;
 mod values;
@@ -35,6 +36,8 @@ enum Command {
     Render(Box<render::RenderArguments>),
     /// Says what a frame will do: passes, pipelines, textures, memory, and what is left out and why.
     Inspect(Box<inspect::InspectArguments>),
+    /// Measures error against run time, and writes tables, plots and one page.
+    Report(report::ReportArguments),
     /// Lists the Vulkan devices, and why one is refused.
     Devices(devices::DevicesArguments),
     /// Lists the material presets and their parameters.
@@ -59,6 +62,7 @@ fn parse_and_run() -> ExitCode {
         Ok(Arguments { command: Some(command) }) => match command {
             Command::Render(arguments) => render::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Report(arguments) => report::run(&arguments),
             Command::Devices(arguments) => devices::run(&arguments),
             Command::Presets(arguments) => presets::run(&arguments),
         },
