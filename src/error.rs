@@ -3,6 +3,8 @@
 use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
+#[cfg(feature = "measure")]
+use crate::oracle::OracleError;
 use crate::render::RenderError;
 #[cfg(feature = "measure")]
 use crate::report::ReportError;
@@ -31,4 +33,8 @@ pub enum Error {
     #[cfg(feature = "measure")]
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A reference cannot be made.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Oracle(#[from] OracleError),
 }

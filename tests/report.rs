@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use vair::gpu::{Gpu, GpuOptions};
-use vair::report::metric::{Radiance, change_error, picture_error};
+use vair::report::metric::{Radiance, change_error, noise, picture_error};
 use vair::report::statistics::{Reading, Spread, cost_at_error, log_log_slope, pareto_front};
 use vair::report::{self, Effort, Method, Question, Report, ReportError, View};
 
@@ -36,6 +36,14 @@ fn relmse_is_its_formula_over_covered_pixels_alone() {
     let expected = (254.0 * off + missing) / 255.0;
     assert!((error.relmse - expected).abs() < 1e-12, "{} instead of {expected}", error.relmse);
     assert!(error.flip > 0.0 && error.flip < 1.0);
+}
+
+#[test]
+fn noise_counts_over_covered_pixels_alone() {
+    let mut reference = even(0.4);
+    reference.pixels[..128].fill(DVec4::ZERO);
+    let variance = [vec![DVec3::ZERO; 128], vec![DVec3::splat(0.034); 128]].concat();
+    assert!((noise(&reference, &variance) - 0.2).abs() < 1e-12);
 }
 
 #[test]
@@ -114,7 +122,7 @@ fn intervals_hold_the_median_and_narrow_with_more_values() {
 }
 
 fn tiny_report() -> Report {
-    let effort = Effort { size: [64, 36], layers: vec![2, 4, 6], reference_samples: 1, rounds: 3, time_limit: None };
+    let effort = Effort { size: [64, 36], layers: vec![2, 4, 6], reference_samples: 2, rounds: 3, time_limit: None };
     let question = Question {
         name: "fur layers",
         methods: vec![Method::ours(), Method::classic_draws()],

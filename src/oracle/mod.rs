@@ -1,60 +1,22 @@
 //! The limit that shells approach: coats ray-cast in double precision on the CPU, from the formulas, sharing no code with
 //! the shaders.
+//!
+//! A coat's shell at height k in [0, 1] is, for every triangle of its skin, the flat triangle of the vertices' displaced
+//! places. What infinitely many shells show along a ray is the first place, over all triangles and all k, that lies
+//! inside a strand ([`Coat`]). It is shaded as the shaders shade, with the twins of [`crate::material::reference`].
 
-use crate::scene::{Camera, Lighting, Pose, Scene};
-use glam::{DVec3, DVec4};
+mod bvh;
+mod coat;
+mod error;
+mod picture;
+mod ray;
+mod shade;
+mod stage;
+mod texture;
+mod walk;
 
-/// What is asked of the reference.
-#[derive(Debug, Clone, Copy)]
-pub struct OracleOptions {
-    /// Pixels.
-    pub size: [u32; 2],
-    /// Samples a pixel.
-    pub samples: u32,
-    /// Of the sample positions.
-    pub seed: u32,
-}
-
-/// A reference picture.
-#[derive(Debug, Clone)]
-pub struct OraclePicture {
-    /// Pixels.
-    pub size: [u32; 2],
-    /// Premultiplied linear RGB and coverage, rows from the top.
-    pub radiance: Vec<DVec4>,
-    /// Of each pixel's mean.
-    pub variance: Vec<DVec3>,
-}
-
-impl OraclePicture {
-    /// Noise of the picture, as relMSE.
-    pub fn noise_relmse(&self) -> f64 {
-        0.0
-    }
-}
-
-/// Why a reference could not be made.
-#[derive(Debug, thiserror::Error)]
-#[error("the reference could not be made")]
-pub struct OracleError;
-
-/// Stand-in until the ray caster is merged: a grey picture.
-///
-/// # Errors
-/// Never.
-pub fn render(
-    _scene: &Scene,
-    _scene_index: usize,
-    _pose: &Pose,
-    _camera: &Camera,
-    _lighting: &Lighting,
-    _variant: Option<usize>,
-    options: &OracleOptions,
-) -> Result<OraclePicture, OracleError> {
-    let pixels = options.size[0] as usize * options.size[1] as usize;
-    Ok(OraclePicture {
-        size: options.size,
-        radiance: vec![DVec4::new(0.1, 0.08, 0.05, 1.0); pixels],
-        variance: vec![DVec3::ZERO; pixels],
-    })
-}
+pub use coat::{Coat, Corner, Triangle};
+pub use error::OracleError;
+pub use picture::{OracleOptions, OraclePicture, render};
+pub use ray::Ray;
+pub use walk::Hit;

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// Strands that one timing moves: enough for the clock.
-pub const STRANDS: usize = 2000;
+pub const STRANDS: usize = 200;
 /// Length of a run, seconds.
 const RUN_S: f64 = 2.0;
 /// Steps a second of the solution that errors are taken against; its own error falls with the square of the step and is

@@ -14,7 +14,7 @@ const NAMES: [&str; 4] = ["report.json", "report.csv", "index.html", "plots"];
 pub fn check_folder(folder: &Path) -> Result<(), ReportError> {
     let failed = |source| ReportError::Write { path: folder.to_owned(), source };
     if !folder.exists() {
-        return fs::metadata(parent(folder)).map(drop).map_err(failed);
+        return fs::read_dir(parent(folder)).map(drop).map_err(failed);
     }
     let entries = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
     let is_ours = |entry: &fs::DirEntry| NAMES.iter().any(|name| entry.file_name() == *name);

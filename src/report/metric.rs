@@ -57,6 +57,12 @@ pub fn change_error(picture: [&Radiance; 2], reference: [&Radiance; 2], backgrou
     PictureError { relmse: relative, flip: flip(first.size, &display(&reference), &display(&picture)) }
 }
 
+/// What a reference's own noise adds to a relMSE; `variance` is that of each pixel's mean.
+pub fn noise(reference: &Radiance, variance: &[DVec3]) -> f64 {
+    let deviation = |variance: &DVec3| variance.max(DVec3::ZERO).powf(0.5).extend(0.0);
+    relmse(reference.pixels.iter().zip(variance).map(|(pixel, variance)| (deviation(variance), *pixel, *pixel)))
+}
+
 /// Of (error, picture, reference) a pixel.
 fn relmse(pixels: impl Iterator<Item = (DVec4, DVec4, DVec4)>) -> f64 {
     let (mut sum, mut count) = (0.0, 0u64);

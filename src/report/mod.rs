@@ -82,7 +82,7 @@ pub struct Effort {
     pub size: [u32; 2],
     /// Numbers of shells.
     pub layers: Vec<u32>,
-    /// Samples a pixel of the reference, > 0.
+    /// Samples a pixel of the reference, an even number of at least 2.
     pub reference_samples: u32,
     /// Rounds of timing.
     pub rounds: usize,

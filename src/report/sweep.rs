@@ -1,7 +1,7 @@
 //! The measuring: references, one picture of every point for its error, then rounds over all points for their times.
 
 use super::case::{Cases, Stage, View};
-use super::metric::{PictureError, Radiance, change_error, picture_error};
+use super::metric::{self, PictureError, Radiance, change_error, picture_error};
 use super::question::Method;
 use super::{Effort, Progress, ReportError};
 use crate::gpu::Gpu;
@@ -176,10 +176,11 @@ fn references(
             let scene_index = scene.asset().default_scene;
             let picture =
                 oracle::render(scene, scene_index, &shot.pose, &shot.camera, &shot.lighting, None, &oracle_options)?;
-            // The noise of a difference is that of both.
-            noise += picture.noise_relmse();
             background = shot.lighting.ambient_radiance.as_dvec3();
-            frames.push(Radiance { size, pixels: picture.radiance });
+            let frame = Radiance { size, pixels: picture.radiance };
+            // The noise of a difference is that of both.
+            noise += metric::noise(&frame, &picture.variance);
+            frames.push(frame);
         }
         references.insert(recipe.view, Reference { frames, noise, background });
     }

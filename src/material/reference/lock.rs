@@ -16,6 +16,11 @@ pub fn middle(in_locks: DVec3) -> (DVec3, f64) {
     for index in 0..125 {
         let step = DVec3::new(f64::from(index % 5), f64::from(index / 5 % 5), f64::from(index / 25)) - 2.0;
         let cell = home + step;
+        // Most cells are too far, wherever in them the middle stands.
+        let beyond = ((cell + 0.5 - in_locks).abs() - JITTER).max(DVec3::ZERO);
+        if beyond.length_squared() >= nearest.0.length_squared() {
+            continue;
+        }
         let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32 + 7919));
         let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - in_locks;
         if offset.length_squared() < nearest.0.length_squared() {
@@ -28,7 +33,20 @@ pub fn middle(in_locks: DVec3) -> (DVec3, f64) {
 /// Root that the strand passing at `position` (in strand spacings) and `height` grew from.
 pub fn root(position: DVec3, normal: DVec3, height: f64, clump: f64, curl: f64) -> DVec3 {
     let (middle, random) = middle(position / SIZE);
-    let from_middle = (middle.dot(normal) * normal - middle) * SIZE;
+    root_in(middle * SIZE, random, position, normal, height, clump, curl)
+}
+
+/// The same for a known lock: its middle relative to `position`, in strand spacings, and its random number.
+pub fn root_in(
+    middle: DVec3,
+    random: f64,
+    position: DVec3,
+    normal: DVec3,
+    height: f64,
+    clump: f64,
+    curl: f64,
+) -> DVec3 {
+    let from_middle = middle.dot(normal) * normal - middle;
     let gather = 1.0 / (1.0 - 0.85 * clump * height).max(0.1);
     let away = if normal.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
     let side = normal.cross(away).normalize();

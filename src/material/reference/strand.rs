@@ -9,6 +9,44 @@ pub const JITTER: f64 = 0.5;
 /// Farthest distance, in cells, of a strand's point from the surface.
 pub const REACH: f64 = 0.5;
 
+/// A procedural strand, if a surface passes close by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strand {
+    /// Where it roots, in cells.
+    pub point: DVec3,
+    /// Its own number in [0, 1).
+    pub random: f64,
+}
+
+impl Strand {
+    /// The one of a lattice cell, given by its lower corner.
+    pub fn of_cell(cell: DVec3) -> Self {
+        let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
+        let point = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER;
+        Self { point, random: (random[0] * 97.0 + random[1] * 57.0).fract() }
+    }
+
+    /// Profile on its axis: how far up the thresholds it reaches.
+    pub fn full_length(&self) -> f64 {
+        0.75 + 0.25 * self.random
+    }
+
+    /// Its point seen from a place on the surface: the offset along the surface, and the share of the root radius that
+    /// its height off the surface leaves; the share is not positive where it is out of reach.
+    pub fn offset(&self, position: DVec3, normal: DVec3) -> (DVec3, f64) {
+        let offset = self.point - position;
+        let height = offset.dot(normal);
+        (offset - height * normal, 1.0 - (height / REACH).powi(2))
+    }
+
+    /// Its profile over a slab of the view ray; `None` where it is out of reach. See [`field`].
+    pub fn profile(&self, position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -> Option<f64> {
+        let (in_plane, shrink) = self.offset(position, normal);
+        let distance = segment_distance(in_plane, half_segment);
+        (shrink > 0.0).then(|| self.full_length() * (1.0 - distance / (radius * shrink)))
+    }
+}
+
 /// Profile and random number of the strongest procedural strand over a slab of the view ray.
 ///
 /// `position` and `half_segment` are in cells, `normal` is a unit vector, `radius` is in cells. Looks at every cell
@@ -20,19 +58,10 @@ pub fn field(position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -
         for y in -2..=2 {
             for z in -2..=2 {
                 let cell = middle + DVec3::new(f64::from(x), f64::from(y), f64::from(z));
-                let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32));
-                let point = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER;
-                let offset = point - position;
-                let height = offset.dot(normal);
-                let shrink = 1.0 - (height / REACH).powi(2);
-                if shrink <= 0.0 {
-                    continue;
-                }
-                let own_random = (random[0] * 97.0 + random[1] * 57.0).fract();
-                let distance = segment_distance(offset - height * normal, half_segment);
-                let profile = (0.75 + 0.25 * own_random) * (1.0 - distance / (radius * shrink));
+                let strand = Strand::of_cell(cell);
+                let Some(profile) = strand.profile(position, normal, radius, half_segment) else { continue };
                 if profile > nearest.0 {
-                    nearest = (profile, own_random);
+                    nearest = (profile, strand.random);
                 }
             }
         }
