@@ -122,7 +122,14 @@ fn intervals_hold_the_median_and_narrow_with_more_values() {
 }
 
 fn tiny_report() -> Report {
-    let effort = Effort { size: [64, 36], layers: vec![2, 4, 6], reference_samples: 2, rounds: 3, time_limit: None };
+    let effort = Effort {
+        size: [64, 36],
+        swatch_size: [32, 18],
+        layers: vec![2, 4, 6],
+        reference_samples: 2,
+        rounds: 3,
+        time_limit: None,
+    };
     let question = Question {
         name: "fur layers",
         methods: vec![Method::ours(), Method::classic_draws()],

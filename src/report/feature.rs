@@ -75,8 +75,8 @@ pub struct Report {
     pub date: String,
     /// Threads that the host offers.
     pub threads: usize,
-    /// Pixels of every picture.
-    pub size: [u32; 2],
+    /// Pixels of the pictures of the knot, and of the swatch.
+    pub sizes: [[u32; 2]; 2],
     /// Rounds of timing.
     pub rounds: usize,
     /// What times are taken by.
@@ -106,7 +106,7 @@ impl Report {
             device: device.clone(),
             date: date(SystemTime::now()),
             threads: std::thread::available_parallelism().map_or(1, usize::from),
-            size: effort.size,
+            sizes: [effort.size, effort.swatch_size],
             rounds: sweep.rounds,
             clock,
             default_layers: cases.default_layers,
@@ -167,10 +167,7 @@ fn picture_feature(question: &Question, sweep: &Sweep, effort: &Effort, clock: C
     mark_fronts(&mut all);
     Feature {
         name: question.name,
-        reference: format!(
-            "coat ray-cast in double precision, {} samples a pixel, {}x{}",
-            effort.reference_samples, effort.size[0], effort.size[1]
-        ),
+        reference: format!("coat ray-cast in double precision, {} samples a pixel", effort.reference_samples),
         reference_noise: question.views.iter().map(|&view| noise_of(view)).fold(0.0, f64::max),
         points: all,
         notes: Vec::new(),

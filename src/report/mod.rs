@@ -78,8 +78,10 @@ pub enum ReportError {
 /// How much work a report is worth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effort {
-    /// Pixels of every picture.
+    /// Pixels of the pictures of the knot.
     pub size: [u32; 2],
+    /// Pixels of the pictures of the swatch, which looks the same all over: fewer tell as much.
+    pub swatch_size: [u32; 2],
     /// Numbers of shells.
     pub layers: Vec<u32>,
     /// Samples a pixel of the reference, an even number of at least 2.
@@ -95,10 +97,11 @@ impl Effort {
     pub fn quick() -> Self {
         Self {
             size: [256, 144],
+            swatch_size: [128, 72],
             layers: vec![4, 8, 16, 32, 64],
-            reference_samples: 16,
+            reference_samples: 8,
             rounds: 9,
-            time_limit: Some(Duration::from_secs(35)),
+            time_limit: Some(Duration::from_secs(30)),
         }
     }
 
@@ -106,11 +109,17 @@ impl Effort {
     pub fn full() -> Self {
         Self {
             size: [512, 288],
+            swatch_size: [256, 144],
             layers: vec![4, 8, 16, 32, 64, 128, 256],
             reference_samples: 256,
             rounds: 31,
             time_limit: None,
         }
+    }
+
+    /// Pixels of a view's pictures.
+    pub(crate) fn size_of(&self, view: View) -> [u32; 2] {
+        if view.stage() == case::Stage::Swatch { self.swatch_size } else { self.size }
     }
 }
 

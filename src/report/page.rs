@@ -58,9 +58,9 @@ impl Report {
             ""
         };
         let device = escaped(&format!("{}, {}, Vulkan {}", self.device.name, self.device.driver, self.device.api));
-        let [width, height] = self.size;
+        let [[width, height], [swatch_width, swatch_height]] = self.sizes;
         format!(
-            "<p class=\"soft\">{device}; {} host threads; {}; {width}x{height} pixels; median of {} rounds over all \
+            "<p class=\"soft\">{device}; {} host threads; {}; {width}x{height} pixels (swatch {swatch_width}x{swatch_height}); median of {} rounds over all \
              points; times by {clock}.{processor}</p>\n",
             self.threads, self.date, self.rounds
         )

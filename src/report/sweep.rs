@@ -34,7 +34,8 @@ impl Recipe {
     }
 
     /// Each frame of the view.
-    fn frames(&self, cases: &Cases, size: [u32; 2]) -> Vec<FrameOptions> {
+    fn frames(&self, cases: &Cases, effort: &Effort) -> Vec<FrameOptions> {
+        let size = effort.size_of(self.view);
         let options = FrameOptions {
             size,
             layers: Some(self.layers),
@@ -118,7 +119,7 @@ pub fn sweep(
     for (done, recipe) in unique.iter().enumerate() {
         progress("errors", done, unique.len());
         let renderer = renderer_of(&mut renderers, gpu, recipe.view.stage())?;
-        let error = error_of(renderer, cases, recipe, references.get(&recipe.view), effort.size)?;
+        let error = error_of(renderer, cases, recipe, references.get(&recipe.view), effort)?;
         measurements.insert(*recipe, Measurement { error, frames: Vec::new() });
     }
 
@@ -134,7 +135,7 @@ pub fn sweep(
         for (done, recipe) in order.into_iter().enumerate() {
             progress("times", rounds * unique.len() + done, effort.rounds * unique.len());
             let renderer = renderer_of(&mut renderers, gpu, recipe.view.stage())?;
-            let options = &recipe.frames(cases, effort.size)[0];
+            let options = &recipe.frames(cases, effort)[0];
             let (_, report) = renderer.render_reported(cases.scene(recipe.view.stage()), options, false)?;
             measurements.entry(*recipe).or_default().frames.push(FrameMs::new(&report));
         }
@@ -168,9 +169,9 @@ fn references(
         progress("references", done, asked.len());
         let scene = cases.scene(recipe.view.stage());
         let (mut frames, mut noise, mut background) = (Vec::new(), 0.0, DVec3::ZERO);
-        for (index, options) in recipe.frames(cases, effort.size).iter().enumerate() {
+        for (index, options) in recipe.frames(cases, effort).iter().enumerate() {
             let shot = Shot::new(scene, options)?;
-            let (size, samples) = (effort.size, effort.reference_samples);
+            let (size, samples) = (options.size, effort.reference_samples);
             // Frames of one view are independent: what they share would hide in the change between them.
             let oracle_options = OracleOptions { size, samples, seed: index as u32 };
             let scene_index = scene.asset().default_scene;
@@ -192,12 +193,15 @@ fn error_of(
     cases: &Cases,
     recipe: &Recipe,
     reference: Option<&Reference>,
-    size: [u32; 2],
+    effort: &Effort,
 ) -> Result<Option<PictureError>, ReportError> {
     let mut frames = Vec::new();
-    for options in recipe.frames(cases, size) {
+    for options in recipe.frames(cases, effort) {
         let (picture, _) = renderer.render_reported(cases.scene(recipe.view.stage()), &options, true)?;
-        frames.push(Radiance { size, pixels: picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect() });
+        frames.push(Radiance {
+            size: picture.size,
+            pixels: picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect(),
+        });
     }
     let Some(reference) = reference else { return Ok(None) };
     Ok(match (&frames[..], &reference.frames[..]) {

@@ -13,7 +13,7 @@ impl Report {
                 "name": self.device.name, "driver": self.device.driver, "api": self.device.api,
                 "is_on_processor": self.is_on_processor(),
             },
-            "date": self.date, "threads": self.threads, "size": self.size, "rounds": self.rounds,
+            "date": self.date, "threads": self.threads, "size": self.sizes[0], "swatch_size": self.sizes[1], "rounds": self.rounds,
             "clock": match self.clock { Clock::Device => "device", Clock::Wall => "wall" },
             "features": self.features.iter().map(feature_json).collect::<Vec<_>>(),
             "headline": {
