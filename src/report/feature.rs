@@ -3,7 +3,7 @@
 use super::case::Cases;
 use super::dynamics::{self, Integrator, STRAND_KINDS, STRANDS};
 use super::headline::Headline;
-use super::question::Question;
+use super::question::{Method, Question};
 use super::statistics::{Spread, pareto_front};
 use super::sweep::{FrameMs, Measurement, Recipe, Sweep};
 use super::{Effort, View};
@@ -123,15 +123,17 @@ impl Report {
 
 /// Every point of a question.
 pub fn recipes(question: &Question) -> Vec<Recipe> {
-    points(question).map(|(method, layers, view)| Recipe::new(&question.methods[method], layers, view)).collect()
+    points(question).into_iter().map(|(method, layers, view)| Recipe::new(method, layers, view)).collect()
 }
 
-/// (method, layers, view) of every point.
-fn points(question: &Question) -> impl Iterator<Item = (usize, u32, View)> {
-    let of_method = move |method| {
-        question.views.iter().flat_map(move |&view| question.layers.iter().map(move |&layers| (method, layers, view)))
-    };
-    (0..question.methods.len()).flat_map(of_method)
+fn points(question: &Question) -> Vec<(&Method, u32, View)> {
+    let mut points = Vec::new();
+    for &view in &question.views {
+        for method in &question.methods {
+            points.extend(question.layers_of(method).into_iter().map(|layers| (method, layers, view)));
+        }
+    }
+    points
 }
 
 /// Milliseconds of a measurement by a clock.
@@ -147,7 +149,6 @@ fn picture_feature(question: &Question, sweep: &Sweep, effort: &Effort, clock: C
     let noise_of = |view| sweep.noise.get(&view).copied().unwrap_or_default();
     let mut all = Vec::new();
     for (method, layers, view) in points(question) {
-        let method = &question.methods[method];
         let Some(measurement) = sweep.measurements.get(&Recipe::new(method, layers, view)) else { continue };
         let Some(error) = measurement.error else { continue };
         all.push(Point {

@@ -97,9 +97,9 @@ impl Effort {
     pub fn quick() -> Self {
         Self {
             size: [256, 144],
-            swatch_size: [128, 72],
+            swatch_size: [96, 54],
             layers: vec![4, 8, 16, 32, 64],
-            reference_samples: 8,
+            reference_samples: 4,
             rounds: 9,
             time_limit: Some(Duration::from_secs(30)),
         }

@@ -56,23 +56,27 @@ pub struct Question {
     pub name: &'static str,
     /// Ways to draw.
     pub methods: Vec<Method>,
-    /// Shells.
+    /// Shells; classic methods also get [`CLASSIC_LAYERS`].
     pub layers: Vec<u32>,
     /// Views, all with a reference.
     pub views: Vec<View>,
 }
 
 impl Question {
+    /// Shells that a method is drawn with.
+    pub(super) fn layers_of(&self, method: &Method) -> Vec<u32> {
+        let mut layers = self.layers.clone();
+        if method.is_classic && !layers.contains(&CLASSIC_LAYERS) {
+            layers.push(CLASSIC_LAYERS);
+        }
+        layers
+    }
+
     /// All of them, for those numbers of layers.
     pub fn all(layers: &[u32]) -> Vec<Self> {
         let ours = Method::ours();
-        let question = |name, methods, views: &[View]| {
-            let mut layers = layers.to_vec();
-            layers.push(CLASSIC_LAYERS);
-            layers.sort_unstable();
-            layers.dedup();
-            Self { name, methods, layers, views: views.to_vec() }
-        };
+        let question =
+            |name, methods, views: &[View]| Self { name, methods, layers: layers.to_vec(), views: views.to_vec() };
         vec![
             question(
                 "fur layers",
