@@ -141,6 +141,10 @@ impl Coat {
 }
 
 impl Lock {
+    pub(super) fn distance_squared(self, skin: Skin) -> f64 {
+        (self.middle - skin.place).length_squared()
+    }
+
     pub(super) fn is(self, other: Self) -> bool {
         (self.middle - other.middle).length_squared() < 1e-6
     }

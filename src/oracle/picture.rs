@@ -62,7 +62,7 @@ pub fn render(
     if width == 0 || height == 0 {
         return Err(OracleError::Size { width, height });
     }
-    if samples < 2 || samples % 2 != 0 {
+    if samples < 2 || !samples.is_multiple_of(2) {
         return Err(OracleError::Samples { samples });
     }
     let stage = Stage::new(scene, scene_index, pose, variant)?;
@@ -103,7 +103,7 @@ fn pixel(stage: &Stage, shading: &Shading, [x, y]: [u32; 2], options: &OracleOpt
 /// Columns and rows of so many strata, as square as they divide.
 fn strata(count: u32) -> [u32; 2] {
     let mut rows = count.isqrt();
-    while count % rows != 0 {
+    while !count.is_multiple_of(rows) {
         rows -= 1;
     }
     [count / rows, rows]

@@ -40,8 +40,8 @@ pub struct Tuft {
 }
 
 enum Item {
-    Facet(Facet),
-    Tuft(Tuft),
+    Facet(Box<Facet>),
+    Tuft(Box<Tuft>),
 }
 
 /// What a ray met.
@@ -109,13 +109,13 @@ impl Stage {
         let [world, normals] = in_world(instance, &posed);
         let color = |vertex: usize| posed.colors.get(vertex).map_or(DVec4::ONE, |color| color.as_dvec4());
         for corners in triangles(source) {
-            self.items.push(Item::Facet(Facet {
+            self.items.push(Item::Facet(Box::new(Facet {
                 surface: self.surfaces.len(),
                 corners: corners.map(|vertex| world[vertex]),
                 normals: corners.map(|vertex| normals[vertex]),
                 colors: corners.map(color),
                 uv: corners.map(&uv),
-            }));
+            })));
         }
         self.surfaces.push(dress);
         Ok(())
@@ -159,12 +159,12 @@ impl Stage {
         };
         let uv = dress.coordinates(source);
         for corners in triangles(source) {
-            self.items.push(Item::Tuft(Tuft {
+            self.items.push(Item::Tuft(Box::new(Tuft {
                 coat: self.coats.len(),
                 triangle: corners.map(corner),
                 colors: corners.map(|vertex| color(vertex).truncate()),
                 uv: [0, 1].map(|map| corners.map(|vertex| uv(vertex)[map])),
-            }));
+            })));
         }
         self.coats.push(dress);
     }

@@ -8,6 +8,7 @@ use super::coat::{Coat, Lock, Skin, Triangle};
 use super::ray::Ray;
 use crate::material::reference::strand::{REACH, Strand};
 use glam::{DVec2, DVec3};
+use std::cell::OnceCell;
 
 /// Where a ray first meets a strand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +43,6 @@ impl Coat {
 }
 
 /// The shell at one height, as the ray sees it.
-#[derive(Clone, Copy)]
 struct Station {
     height: f64,
     /// The corners across the ray, which is the origin.
@@ -54,6 +54,10 @@ struct Station {
     distance_m: f64,
     /// Twice the triangle's area as it is seen.
     area: f64,
+    /// Where the skin is that the ray passes over.
+    skin: Skin,
+    /// Its lock, once somebody asked.
+    lock: OnceCell<Option<Lock>>,
 }
 
 impl Station {
@@ -63,12 +67,20 @@ impl Station {
     }
 }
 
-/// What is known of a station that may take part in a leaf.
-#[derive(Clone, Copy)]
-struct Rooted {
-    at: Station,
-    skin: Skin,
+/// A station of a leaf, and the root of the strand there.
+struct Rooted<'a> {
+    at: &'a Station,
     root: DVec3,
+}
+
+/// What to do with a span of heights.
+enum Span<'a> {
+    /// Meet its strands, which are of one lock.
+    Leaf([Rooted<'a>; 3], Option<Lock>),
+    /// Halve it.
+    Halve,
+    /// Part it where one lock ends and another begins.
+    Part(f64),
 }
 
 struct Search<'a> {
@@ -85,7 +97,13 @@ impl Search<'_> {
         let edges = DVec3::new(b.perp_dot(c), c.perp_dot(a), a.perp_dot(b));
         let area = edges.element_sum();
         let (depths, barycentric) = (DVec3::new(a_m, b_m, c_m), edges / area);
-        Station { height, corners: [a, b, c], depths, barycentric, distance_m: barycentric.dot(depths), area }
+        let (skin, lock) = (self.coat.skin(self.triangle, barycentric), OnceCell::new());
+        let distance_m = barycentric.dot(depths);
+        Station { height, corners: [a, b, c], depths, barycentric, distance_m, area, skin, lock }
+    }
+
+    fn lock(&self, station: &Station) -> Option<Lock> {
+        *station.lock.get_or_init(|| self.coat.lock(station.skin))
     }
 
     fn walk(&mut self, low: &Station, high: &Station) {
@@ -96,48 +114,72 @@ impl Search<'_> {
             return;
         }
         let middle = self.station(0.5 * (low.height + high.height));
-        if let Some((stations, lock)) = self.leaf([low, &middle, high]) {
-            self.meet(stations, lock);
-        } else if span > SMALLEST_SPAN {
-            let rises = low.depths.element_sum() < high.depths.element_sum();
-            let (first, second) =
-                if rises { ((low, &middle), (&middle, high)) } else { ((&middle, high), (low, &middle)) };
-            self.walk(first.0, first.1);
-            self.walk(second.0, second.1);
+        match self.span([low, &middle, high]) {
+            Span::Leaf(stations, lock) => self.meet(&stations, lock),
+            Span::Part(height) => {
+                let [before, after] = [-1.0, 1.0].map(|side| self.station(height + side * SMALLEST_SPAN));
+                self.walk_both([low, &before], [&after, high]);
+            }
+            Span::Halve if span > SMALLEST_SPAN => self.walk_both([low, &middle], [&middle, high]),
+            Span::Halve => {}
         }
     }
 
-    /// The stations with their roots, if the path through them is short and nearly straight, and runs one way along the
-    /// ray and over one lock.
-    fn leaf(&self, stations: [&Station; 3]) -> Option<([Rooted; 3], Option<Lock>)> {
+    /// The nearer first: what it holds hides the other.
+    fn walk_both(&mut self, lower: [&Station; 2], upper: [&Station; 2]) {
+        let rises = lower[0].depths.element_sum() < upper[1].depths.element_sum();
+        for [low, high] in if rises { [lower, upper] } else { [upper, lower] } {
+            self.walk(low, high);
+        }
+    }
+
+    /// A leaf, if the path through the stations is short and nearly straight, and runs one way along the ray and over one
+    /// lock.
+    fn span<'b>(&self, stations: [&'b Station; 3]) -> Span<'b> {
         let [a, m, b] = stations;
         let bow = |a: DVec3, m: DVec3, b: DVec3| (m - 0.5 * (a + b)).length();
         let one_way = (m.distance_m - a.distance_m) * (b.distance_m - m.distance_m) > 0.0;
         let one_side = m.area * a.area > 0.0 && m.area * b.area > 0.0;
-        if !one_way || !one_side || bow(a.barycentric, m.barycentric, b.barycentric) > LEAF_BOW {
-            return None;
+        let short = (a.skin.place - b.skin.place).length() <= LEAF_LENGTH
+            && bow(a.skin.place, m.skin.place, b.skin.place) <= LEAF_BOW;
+        if !one_way || !one_side || !short || bow(a.barycentric, m.barycentric, b.barycentric) > LEAF_BOW {
+            return Span::Halve;
         }
-        let skins = stations.map(|station| self.coat.skin(self.triangle, station.barycentric));
-        if (skins[0].place - skins[2].place).length() > LEAF_LENGTH {
-            return None;
+        let lock = self.lock(m);
+        if let (Some(first), Some(middle), Some(last)) = (self.lock(a), lock, self.lock(b)) {
+            for (end, other) in [(a, first), (b, last)] {
+                if !other.is(middle) {
+                    let height = self.boundary((end, other), (m, middle));
+                    // Beside an end, the boundary is one that the span was parted at.
+                    if (height - end.height).abs() > 4.0 * SMALLEST_SPAN {
+                        return Span::Part(height);
+                    }
+                }
+            }
         }
-        let locks = skins.map(|skin| self.coat.lock(skin));
-        if let [Some(a), Some(m), Some(b)] = locks
-            && !(a.is(m) && m.is(b))
-        {
-            return None;
-        }
-        let rooted = [0, 1, 2].map(|index| {
-            let (at, skin) = (*stations[index], skins[index]);
-            Rooted { at, skin, root: self.coat.root(skin, locks[index], at.height) }
-        });
-        let [a, m, b] = rooted.map(|rooted| rooted.root);
+        let rooted = stations.map(|at| Rooted { at, root: self.coat.root(at.skin, lock, at.height) });
+        let [a, m, b] = rooted.each_ref().map(|rooted| rooted.root);
         let straight = bow(a, m, b) <= LEAF_BOW && (a - b).length() <= LEAF_LENGTH;
-        straight.then_some((rooted, locks[1]))
+        if straight { Span::Leaf(rooted, lock) } else { Span::Halve }
+    }
+
+    /// The height between two stations at which their locks are equally near (secant method: along a leaf the difference
+    /// is nearly linear).
+    fn boundary(&self, (from, of_from): (&Station, Lock), (to, of_to): (&Station, Lock)) -> f64 {
+        let nearer = |skin: Skin| of_from.distance_squared(skin) - of_to.distance_squared(skin);
+        let (mut before, mut after) = ((from.height, nearer(from.skin)), (to.height, nearer(to.skin)));
+        for _ in 0..8 {
+            let height = before.0 + (after.0 - before.0) * before.1 / (before.1 - after.1);
+            if (height - after.0).abs() <= 0.01 * SMALLEST_SPAN || !height.is_finite() {
+                break;
+            }
+            (before, after) = (after, (height, nearer(self.station(height).skin)));
+        }
+        after.0.clamp(from.height.min(to.height), from.height.max(to.height))
     }
 
     /// Meets all strands along a leaf.
-    fn meet(&mut self, leaf: [Rooted; 3], lock: Option<Lock>) {
+    fn meet(&mut self, leaf: &[Rooted; 3], lock: Option<Lock>) {
         let coat = self.coat;
         let [a, m, b] = leaf;
         if a.at.distance_m.min(b.at.distance_m) >= self.limit_m {
@@ -148,18 +190,18 @@ impl Search<'_> {
             - (coat.taper + (coat.cutoff_end - coat.cutoff_start).abs()) * span * span;
         // What chord and middle normal leave out of the path: its bow, and turned strands.
         let slack = 2.0 * (m.root - 0.5 * (a.root + b.root)).length()
-            + (a.skin.normal - m.skin.normal).length().max((b.skin.normal - m.skin.normal).length());
+            + (a.at.skin.normal - m.at.skin.normal).length().max((b.at.skin.normal - m.at.skin.normal).length());
         let radius = coat.radius * (1.0 - least).min(1.0) + slack;
         if radius <= slack {
             return;
         }
-        let across = (1.0 - m.skin.normal * m.skin.normal).max(DVec3::ZERO).map(f64::sqrt);
-        let margin = across * radius + m.skin.normal.abs() * (REACH + slack);
+        let across = (1.0 - m.at.skin.normal * m.at.skin.normal).max(DVec3::ZERO).map(f64::sqrt);
+        let margin = across * radius + m.at.skin.normal.abs() * (REACH + slack);
         let low = (a.root.min(b.root) - margin).floor();
         let high = (a.root.max(b.root) + margin).floor();
         let chord = b.root - a.root;
-        let rise = chord.dot(m.skin.normal);
-        let along = chord - rise * m.skin.normal;
+        let rise = chord.dot(m.at.skin.normal);
+        let along = chord - rise * m.at.skin.normal;
         let along_squared = along.length_squared().max(1e-300);
         let mut cell = low;
         while cell.z <= high.z {
@@ -168,14 +210,14 @@ impl Search<'_> {
                     let strand = Strand::of_cell(cell);
                     cell.x += 1.0;
                     let offset = strand.point - a.root;
-                    let height = offset.dot(m.skin.normal);
+                    let height = offset.dot(m.at.skin.normal);
                     let foot = (offset.dot(along) / along_squared).clamp(0.0, 1.0);
-                    let off = offset - height * m.skin.normal - foot * along;
+                    let off = offset - height * m.at.skin.normal - foot * along;
                     let is_near = off.length_squared() <= radius * radius
                         && height.max(height - rise) >= -(REACH + slack)
                         && height.min(height - rise) <= REACH + slack;
                     if is_near {
-                        self.meet_strand(&strand, &leaf, lock, foot);
+                        self.meet_strand(&strand, leaf, lock, foot);
                     }
                 }
                 cell.x = low.x;
@@ -189,9 +231,8 @@ impl Search<'_> {
     /// How far inside strand and triangle the ray is at a height, and where.
     fn exact(&self, strand: &Strand, lock: Option<Lock>, height: f64) -> (f64, Station) {
         let at = self.station(height);
-        let skin = self.coat.skin(self.triangle, at.barycentric);
-        let root = self.coat.root(skin, lock, height);
-        (self.coat.margin(strand, root, skin.normal, height).min(at.inside()), at)
+        let root = self.coat.root(at.skin, lock, height);
+        (self.coat.margin(strand, root, at.skin.normal, height).min(at.inside()), at)
     }
 
     fn meet_strand(&mut self, strand: &Strand, leaf: &[Rooted; 3], lock: Option<Lock>, foot: f64) {
@@ -205,7 +246,7 @@ impl Search<'_> {
             let mix =
                 |value: fn(&Rooted) -> DVec3| value(a) * weights[0] + value(m) * weights[1] + value(b) * weights[2];
             let inside = a.at.inside() * weights[0] + m.at.inside() * weights[1] + b.at.inside() * weights[2];
-            let (root, normal) = (mix(|at| at.root), mix(|at| at.skin.normal).normalize());
+            let (root, normal) = (mix(|rooted| rooted.root), mix(|rooted| rooted.at.skin.normal).normalize());
             coat.margin(strand, root, normal, a.at.height + share * span).min(inside)
         };
         // The margin is nearly concave along the leaf: less concave than this is its distance from a straight path.
@@ -227,41 +268,48 @@ impl Search<'_> {
             within = self.exact(strand, lock, a.at.height + share * span);
         }
         let near = if a.at.distance_m < b.at.distance_m { a } else { b };
-        let near_margin = coat.margin(strand, near.root, near.skin.normal, near.at.height).min(near.at.inside());
-        let at = if near_margin >= 0.0 { near.at } else { self.entry(strand, lock, (near_margin, near.at), within) };
-        let skin = coat.skin(self.triangle, at.barycentric);
-        let is_of_lock = lock.is_none_or(|lock| coat.lock(skin).is_some_and(|found| found.is(lock)));
-        if at.distance_m < self.limit_m && is_of_lock {
+        let near_margin = coat.margin(strand, near.root, near.at.skin.normal, near.at.height).min(near.at.inside());
+        if near_margin >= 0.0 {
+            self.keep(near.at);
+        } else {
+            self.keep(&self.entry(strand, lock, near_margin, near.at.height, within));
+        }
+    }
+
+    fn keep(&mut self, at: &Station) {
+        if at.distance_m < self.limit_m {
             self.limit_m = at.distance_m;
-            let Station { distance_m, height, barycentric, .. } = at;
+            let Station { distance_m, height, barycentric, .. } = *at;
             self.hit = Some(Hit { distance_m, height, barycentric });
         }
     }
 
-    /// The first place inside, between one outside and one inside: false position, of the Illinois kind (Dowell & Jarratt
-    /// 1971, "A modified regula falsi method").
+    /// The first place inside a strand, between a height outside and a place inside: false position, of the Illinois kind
+    /// (Dowell & Jarratt 1971, "A modified regula falsi method").
     fn entry(
         &self,
         strand: &Strand,
         lock: Option<Lock>,
-        mut outside: (f64, Station),
+        mut below: f64,
+        mut outside: f64,
         mut inside: (f64, Station),
     ) -> Station {
-        let (mut below, mut above) = (outside.0, inside.0);
+        let mut above = inside.0;
         let mut moved_inside = None;
         for _ in 0..60 {
-            let (low, high) = (outside.1.height, inside.1.height);
-            if (high - low).abs() < 1e-14 || inside.0 < 1e-13 {
+            let end = inside.1.height;
+            if (end - outside).abs() < 1e-14 || inside.0 < 1e-13 {
                 break;
             }
-            let found = self.exact(strand, lock, low + (high - low) * (below / (below - above)).clamp(0.0, 1.0));
+            let found = self.exact(strand, lock, outside + (end - outside) * (below / (below - above)).clamp(0.0, 1.0));
             // The end that stays twice counts half, or it would stay for ever.
             let is_inside = found.0 >= 0.0;
             let weight = if moved_inside.replace(is_inside) == Some(is_inside) { 0.5 } else { 1.0 };
             if is_inside {
-                (inside, above, below) = (found, found.0, weight * below);
+                (above, below) = (found.0, weight * below);
+                inside = found;
             } else {
-                (outside, below, above) = (found, found.0, weight * above);
+                (outside, below, above) = (found.1.height, found.0, weight * above);
             }
         }
         inside.1

@@ -11,21 +11,26 @@ pub const JITTER: f64 = 0.25;
 
 /// The middle of the lock that a place belongs to, relative to it and in locks, and the lock's random number.
 pub fn middle(in_locks: DVec3) -> (DVec3, f64) {
-    let home = in_locks.floor();
     let mut nearest = (DVec3::INFINITY, 0.0);
-    for index in 0..125 {
-        let step = DVec3::new(f64::from(index % 5), f64::from(index / 5 % 5), f64::from(index / 25)) - 2.0;
-        let cell = home + step;
-        // Most cells are too far, wherever in them the middle stands.
-        let beyond = ((cell + 0.5 - in_locks).abs() - JITTER).max(DVec3::ZERO);
-        if beyond.length_squared() >= nearest.0.length_squared() {
-            continue;
-        }
+    let mut look_at = |cell: DVec3| {
         let random = hash::cell(cell.to_array().map(|coordinate| coordinate as i32 + 7919));
         let offset = cell + 0.5 + (DVec3::from_array(random) * 2.0 - 1.0) * JITTER - in_locks;
         if offset.length_squared() < nearest.0.length_squared() {
             nearest = (offset, random[0]);
         }
+        nearest
+    };
+    let corner = (in_locks - 0.5).floor();
+    for index in 0..8 {
+        look_at(corner + DVec3::new(f64::from(index % 2), f64::from(index / 2 % 2), f64::from(index / 4)));
+    }
+    // The middles of all other cells are at least this far away.
+    if look_at(corner).0.length() < 1.0 - JITTER {
+        return nearest;
+    }
+    for index in 0..125 {
+        let step = DVec3::new(f64::from(index % 5), f64::from(index / 5 % 5), f64::from(index / 25)) - 2.0;
+        look_at(in_locks.floor() + step);
     }
     nearest
 }
