@@ -39,7 +39,7 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
         pipeline_cache_dir: pipeline_cache_dir(),
     })?;
     let bar = progress_bar();
-    let measured = report::measure(&gpu, &Question::all(&effort.layers), &effort, &mut |stage, done, count| {
+    let measured = report::measure(&gpu, &Question::all(&effort), &effort, &mut |stage, done, count| {
         bar.set_length(count as u64);
         bar.set_position(done as u64);
         bar.set_message(stage);

@@ -82,8 +82,10 @@ pub struct Effort {
     pub size: [u32; 2],
     /// Pixels of the pictures of the swatch, which looks the same all over: fewer tell as much.
     pub swatch_size: [u32; 2],
-    /// Numbers of shells.
+    /// Numbers of shells of the default method.
     pub layers: Vec<u32>,
+    /// Numbers of shells of the other methods.
+    pub layers_of_others: Vec<u32>,
     /// Samples a pixel of the reference, an even number of at least 2.
     pub reference_samples: u32,
     /// Rounds of timing.
@@ -99,7 +101,8 @@ impl Effort {
             size: [256, 144],
             swatch_size: [96, 54],
             layers: vec![4, 8, 16, 32, 64],
-            reference_samples: 4,
+            layers_of_others: vec![4, 8, 16],
+            reference_samples: 32,
             rounds: 9,
             time_limit: Some(Duration::from_secs(30)),
         }
@@ -111,6 +114,7 @@ impl Effort {
             size: [512, 288],
             swatch_size: [256, 144],
             layers: vec![4, 8, 16, 32, 64, 128, 256],
+            layers_of_others: vec![4, 8, 16, 32, 64, 128, 256],
             reference_samples: 256,
             rounds: 31,
             time_limit: None,

@@ -7,8 +7,10 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Width and height, SVG units.
-const SIZE: (u32, u32) = (720, 460);
+/// Width of a plot and height without its legend, SVG units.
+const SIZE: (u32, u32) = (720, 420);
+/// Height of a line of the legend, SVG units.
+const LEGEND_LINE: u32 = 20;
 /// Okabe & Ito 2008, "Color Universal Design": told apart by colour-blind eyes, on white and on black.
 const COLORS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
@@ -47,14 +49,17 @@ impl Report {
 
 fn draw(svg: &mut String, feature: &Feature, camera: &str, clock: Clock) -> Result<(), String> {
     let say = |error: &dyn std::fmt::Display| error.to_string();
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE).map_err(|error| say(&error))?;
     let curves = feature.curves(camera);
+    let height = SIZE.1 + LEGEND_LINE * (curves.len() as u32 + 1);
+    let root = SVGBackend::with_string(svg, (SIZE.0, height)).into_drawing_area();
+    root.fill(&WHITE).map_err(|error| say(&error))?;
+    // Below the plot: over it the legend would hide points.
+    let (upper, lower) = root.split_vertically(SIZE.1);
     // An error of 0 has no place on a log axis.
     let points = || curves.iter().flat_map(|curve| &curve.points).filter(|point| is_shown(point));
     let times = LogAxis::around(points().flat_map(|point| point.ms.interval));
     let errors = LogAxis::around(points().map(|point| point.relmse));
-    let mut chart = ChartBuilder::on(&root)
+    let mut chart = ChartBuilder::on(&upper)
         .caption(format!("{}: {camera}", feature.name), ("sans-serif", 20))
         .margin(12)
         .x_label_area_size(46)
@@ -77,15 +82,18 @@ fn draw(svg: &mut String, feature: &Feature, camera: &str, clock: Clock) -> Resu
 
     let mut own = COLORS.iter().cycle();
     let mut grey = GREYS.iter().cycle();
-    for curve in &curves {
+    for (line, curve) in (0..).zip(&curves) {
         let Some(&color) = (if curve.is_classic { grey.next() } else { own.next() }) else { continue };
         let shown: Vec<&Point> = curve.points.iter().copied().filter(|point| is_shown(point)).collect();
         let at = |point: &Point| (point.ms.median, point.relmse);
         chart
             .draw_series(LineSeries::new(shown.iter().map(|point| at(point)), color.stroke_width(2)))
-            .map_err(|error| say(&error))?
-            .label(legend(curve))
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
+            .map_err(|error| say(&error))?;
+        let y = (LEGEND_LINE * line + LEGEND_LINE / 2) as i32;
+        lower
+            .draw(&PathElement::new([(90, y), (118, y)], color.stroke_width(3)))
+            .and_then(|()| lower.draw(&Text::new(legend(curve), (128, y - 6), ("sans-serif", 14))))
+            .map_err(|error| say(&error))?;
         let bar = |point: &&Point| PathElement::new(point.ms.interval.map(|ms| (ms, point.relmse)), color);
         chart.draw_series(shown.iter().map(bar)).map_err(|error| say(&error))?;
         // Hollow at the floor: the true error may be smaller.
@@ -95,18 +103,9 @@ fn draw(svg: &mut String, feature: &Feature, camera: &str, clock: Clock) -> Resu
             .map_err(|error| say(&error))?;
         let front = shown.iter().filter(|point| point.is_on_front);
         chart.draw_series(front.map(|point| Circle::new(at(point), 7, BLACK))).map_err(|error| say(&error))?;
-        let text = |point: &&Point| {
-            Text::new(format!(" {}", point.knob.1), at(point), ("sans-serif", 12).into_font().color(&color))
-        };
+        let text = |point: &&Point| Text::new(format!(" {}", point.knob.1), at(point), ("sans-serif", 12));
         chart.draw_series(shown.iter().map(text)).map_err(|error| say(&error))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .label_font(("sans-serif", 13))
-        .border_style(TRANSPARENT)
-        .draw()
-        .map_err(|error| say(&error))?;
     root.present().map_err(|error| say(&error))
 }
 
@@ -121,7 +120,7 @@ fn legend(curve: &Curve) -> String {
     }
 }
 
-/// A log axis with readable ticks: 1, 2 and 5 of every decade, or only its 1 where there are many.
+/// A log axis with readable ticks: more steps of a decade where it spans few.
 struct LogAxis {
     range: Range<f64>,
 }
@@ -152,7 +151,11 @@ impl Ranged for LogAxis {
             return Vec::new();
         }
         let decades = self.range.start.log10().floor() as i32..=self.range.end.log10().ceil() as i32;
-        let steps: &[f64] = if decades.clone().count() > 4 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let steps: &[f64] = match (self.range.end / self.range.start).log10() {
+            0.0..1.0 => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0],
+            1.0..4.0 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
         let ticks = decades.flat_map(|decade| steps.iter().map(move |step| step * 10f64.powi(decade)));
         ticks.filter(|tick| self.range.contains(tick)).collect()
     }

@@ -1,5 +1,6 @@
 //! What is asked: ways to draw a coat, and the knobs of each.
 
+use super::Effort;
 use super::case::View;
 use crate::render::{FrameOptions, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells};
 
@@ -56,8 +57,10 @@ pub struct Question {
     pub name: &'static str,
     /// Ways to draw.
     pub methods: Vec<Method>,
-    /// Shells; classic methods also get [`CLASSIC_LAYERS`].
+    /// Shells of the default method.
     pub layers: Vec<u32>,
+    /// Shells of the others; classic methods also get [`CLASSIC_LAYERS`].
+    pub layers_of_others: Vec<u32>,
     /// Views, all with a reference.
     pub views: Vec<View>,
 }
@@ -65,18 +68,25 @@ pub struct Question {
 impl Question {
     /// Shells that a method is drawn with.
     pub(super) fn layers_of(&self, method: &Method) -> Vec<u32> {
-        let mut layers = self.layers.clone();
+        let ours = Method::ours();
+        let is_default = (method.shells, method.msaa) == (ours.shells, ours.msaa);
+        let mut layers = if is_default { &self.layers } else { &self.layers_of_others }.clone();
         if method.is_classic && !layers.contains(&CLASSIC_LAYERS) {
             layers.push(CLASSIC_LAYERS);
         }
         layers
     }
 
-    /// All of them, for those numbers of layers.
-    pub fn all(layers: &[u32]) -> Vec<Self> {
+    /// All of them, with the numbers of layers that an effort affords.
+    pub fn all(effort: &Effort) -> Vec<Self> {
         let ours = Method::ours();
-        let question =
-            |name, methods, views: &[View]| Self { name, methods, layers: layers.to_vec(), views: views.to_vec() };
+        let question = |name, methods, views: &[View]| Self {
+            name,
+            methods,
+            layers: effort.layers.clone(),
+            layers_of_others: effort.layers_of_others.clone(),
+            views: views.to_vec(),
+        };
         vec![
             question(
                 "fur layers",
