@@ -8,6 +8,10 @@
 mod compile;
 #[path = "build/docs.rs"]
 mod docs;
+#[path = "build/function.rs"]
+mod function;
+#[path = "build/function_shader.rs"]
+mod function_shader;
 #[path = "build/include.rs"]
 mod include;
 #[path = "build/interface.rs"]
@@ -25,7 +29,7 @@ mod table;
 
 use interface::Interface;
 use permutation::Permutation;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One permutation, compiled and reflected.
@@ -54,18 +58,37 @@ fn build() -> Result<(), Vec<String>> {
     let text = std::fs::read_to_string(&list).map_err(|error| vec![format!("{}: {error}", list.display())])?;
     let permutations = permutation::parse(&text)?;
 
-    let built = build_all(permutations, root, out)?;
+    let sources = Sources { folder: root.join("pass"), root, out: out.to_owned() };
+    let built = build_all(permutations, &sources)?;
     interface::check(built.iter().map(|(permutation, _, interface)| (permutation, interface)))?;
     let comments = docs::Comments::read(root).map_err(|error| vec![error])?;
     let structs = built.iter().flat_map(|(permutation, _, interface)| {
         interface.structs.iter().map(|layout| (permutation.name(), layout.clone()))
     });
     write(&out.join("shader_layout.rs"), &layout::generate(structs, &comments)?)?;
-    write(&out.join("shader_table.rs"), &table::generate(&built))
+    write(&out.join("shader_table.rs"), &table::generate(&built))?;
+    // Only what judges the renderer evaluates functions one by one; an engine that embeds it carries none of this.
+    if std::env::var_os("CARGO_FEATURE_MEASURE").is_some() {
+        let library = function::Library::read(root)?;
+        let folder = out.join("functions");
+        let permutations = function_shader::write(&library, &folder)?;
+        let shaders = build_all(permutations, &Sources { folder: folder.clone(), root, out: folder })?;
+        write(&out.join("shader_functions.rs"), &function_shader::table(&library, &shaders)?)?;
+    }
+    Ok(())
+}
+
+/// Where shaders are read and where what is made of them goes.
+struct Sources<'a> {
+    /// Folder of the permutations' files.
+    folder: PathBuf,
+    /// `shaders_glsl`.
+    root: &'a Path,
+    out: PathBuf,
 }
 
 /// Compiles and reflects on every core, keeping the order of the list and reporting every failure at once.
-fn build_all(permutations: Vec<Permutation>, root: &Path, out: &Path) -> Result<Vec<Built>, Vec<String>> {
+fn build_all(permutations: Vec<Permutation>, sources: &Sources) -> Result<Vec<Built>, Vec<String>> {
     if permutations.is_empty() {
         return Ok(Vec::new());
     }
@@ -75,10 +98,13 @@ fn build_all(permutations: Vec<Permutation>, root: &Path, out: &Path) -> Result<
     let work = || {
         let mut done = Vec::new();
         while let Some(permutation) = permutations.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let result = compiler.compile(permutation, root, out).and_then(|spirv| {
+            let build = || {
+                let glsl = include::expand(permutation, &sources.folder, sources.root)?;
+                let spirv = compiler.compile(permutation, &glsl, &sources.out)?;
                 let interface = reflect::reflect(permutation, &spirv)?;
                 Ok((permutation.clone(), spirv, interface))
-            });
+            };
+            let result = build();
             done.push((permutation.line, result));
         }
         done

@@ -1,6 +1,5 @@
 //! GLSL to SPIR-V 1.3 (Vulkan 1.1: the newest that naga reads whole), unoptimised: drivers optimise again.
 
-use super::include;
 use super::permutation::{Permutation, Stage};
 use std::path::Path;
 
@@ -47,8 +46,8 @@ mod backend {
             }
         }
 
-        /// SPIR-V words of one permutation; keeps the expanded GLSL beside it in `out`.
-        pub(crate) fn compile(&self, permutation: &Permutation, root: &Path, out: &Path) -> Result<Vec<u32>, String> {
+        /// SPIR-V words of one permutation of the expanded `glsl`; keeps both in `out`.
+        pub(crate) fn compile(&self, permutation: &Permutation, glsl: &str, out: &Path) -> Result<Vec<u32>, String> {
             let stage = match permutation.stage() {
                 Some(Stage::Vertex) => "vert",
                 Some(Stage::Fragment) => "frag",
@@ -58,7 +57,7 @@ mod backend {
             let source = out.join(format!("{}.glsl", permutation.name()));
             let target = out.join(format!("{}.spv", permutation.name()));
             let failed = |error: std::io::Error| format!("{}: {error}", permutation.name());
-            std::fs::write(&source, include::expand(permutation, root)?).map_err(failed)?;
+            std::fs::write(&source, glsl).map_err(failed)?;
             let mut command = Command::new(&self.program);
             command.args(["-V", "--quiet", "--target-env", "vulkan1.1", "-S", stage]);
             if self.keeps_debug_info {
@@ -91,15 +90,15 @@ mod backend {
             glslang::Compiler::acquire().map(Self).ok_or_else(|| "the bundled glslang did not start".to_owned())
         }
 
-        /// SPIR-V words of one permutation.
-        pub(crate) fn compile(&self, permutation: &Permutation, root: &Path, _out: &Path) -> Result<Vec<u32>, String> {
+        /// SPIR-V words of one permutation of the expanded `glsl`.
+        pub(crate) fn compile(&self, permutation: &Permutation, glsl: &str, _out: &Path) -> Result<Vec<u32>, String> {
             let stage = match permutation.stage() {
                 Some(Stage::Vertex) => ShaderStage::Vertex,
                 Some(Stage::Fragment) => ShaderStage::Fragment,
                 Some(Stage::Compute) => ShaderStage::Compute,
                 None => return Err(format!("{}: unknown stage", permutation.name())),
             };
-            let source = ShaderSource::from(include::expand(permutation, root)?);
+            let source = ShaderSource::from(glsl.to_owned());
             let target = Target::Vulkan { version: VulkanVersion::Vulkan1_1, spirv_version: SpirvVersion::SPIRV1_3 };
             let options = CompilerOptions { target, ..Default::default() };
             let failed = |error: GlslangError| readable(&error.to_string(), permutation);

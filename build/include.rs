@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 /// Where `#include` looks, under `shaders_glsl`.
 const FOLDERS: [&str; 2] = ["lib", "host"];
 
-/// The whole text of one permutation. `root` is the `shaders_glsl` folder.
-pub(crate) fn expand(permutation: &Permutation, root: &Path) -> Result<String, String> {
-    let path = root.join("pass").join(&permutation.file);
+/// The whole text of one permutation, whose file is in `folder`. `root` is the `shaders_glsl` folder.
+pub(crate) fn expand(permutation: &Permutation, folder: &Path, root: &Path) -> Result<String, String> {
+    let path = folder.join(&permutation.file);
     let source = read(&path)?;
     // GLSL wants #version first; comments may precede it.
     let Some(version) = source.lines().position(|line| line.trim_start().starts_with("#version")) else {

@@ -13,7 +13,8 @@ pub(crate) fn generate(shaders: &[(Permutation, Vec<u32>, Interface)]) -> String
     )
 }
 
-fn one(permutation: &Permutation, spirv: &[u32], shader: &Interface) -> String {
+/// Rust text of one static.
+pub(crate) fn one(permutation: &Permutation, spirv: &[u32], shader: &Interface) -> String {
     let name = permutation.name();
     let stage = permutation.stage();
     let bindings = list(&shader.bindings, |Binding { set, binding, name, kind }| {

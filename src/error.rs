@@ -5,10 +5,14 @@ use crate::gpu::GpuError;
 use crate::material::MaterialError;
 #[cfg(feature = "measure")]
 use crate::oracle::OracleError;
+#[cfg(feature = "measure")]
+use crate::profile::ProfileError;
 use crate::render::RenderError;
 #[cfg(feature = "measure")]
 use crate::report::ReportError;
 use crate::scene::SceneError;
+#[cfg(feature = "measure")]
+use crate::verify::VerifyError;
 
 /// Anything that this crate can fail with. Each message is one line: what, where, and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +37,14 @@ pub enum Error {
     #[cfg(feature = "measure")]
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// The shader functions cannot be judged.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// A frame cannot be profiled.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
     /// A reference cannot be made.
     #[cfg(feature = "measure")]
     #[error(transparent)]

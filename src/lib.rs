@@ -57,12 +57,20 @@
 //! | [`material`] | parameters declared once, looks, presets, and double-precision twins of the shading |
 //! | [`scene`] | pose, instances, lights, camera; pure functions |
 //! | [`render`] | what one frame needs, and the frame |
+//! | `profile` | where a frame's time, fragments and memory go (feature `measure`) |
 //!
 //! # A frame
 //! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists
 //! draws, pipelines, vertex streams and textures, and what is left out and why. Nothing has touched the device yet:
 //! `vair inspect` prints just this. The resources then make what the plan lists and nothing else, and the frame records
-//! its passes: deform (skins and morphs, in compute), opaque, fur, transparent, tone mapping.
+//! its passes: deform (skins and morphs, in compute), sway (strands that lag behind), opaque, fur, transparent, tone
+//! mapping.
+//!
+//! # Fur
+//! A coat is strands on a lattice of the rest pose and a few shells over the mesh, one instance each, the outermost
+//! first. A shell is the upper boundary of a slab: its fragments walk the cells of the lattice that the view ray crosses
+//! within the slab and find the strand that it meets, and where. So a handful of shells shows what infinitely many
+//! would; `vair report` says how nearly and at which cost, beside the ways of other renderers ([`render::Shells`]).
 //!
 //! # Conventions
 //! - World space is right-handed, Y up, metres, seconds. Angles are radians inside and degrees where a person writes

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3, Vec3};
 use vair::FrameOptions;
 use vair::material::reference::albedo::gauss_legendre;
 use vair::material::reference::hash;
-use vair::material::reference::strand::{Strand, mean_coverage};
+use vair::material::reference::strand::{Strand, cross_section, slab_opacity, width};
 use vair::oracle::{Coat, Corner, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render};
 use vair::render::{ShellAlpha, ShellSampling, Shells};
 use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene};
@@ -212,7 +212,7 @@ fn seen_from_above_the_coverage_is_the_closed_forms() {
             first_hit(&coat, &triangles, &ray).is_some()
         });
         let found = hits.count() as f64 / count as f64;
-        let expected = mean_coverage(cutoff_start, radius, 0.0);
+        let expected = slab_opacity(cross_section(cutoff_start, radius), 0.0, 0.0);
         // Independent places: four standard errors of a share.
         let noise = 4.0 * (expected * (1.0 - expected) / count as f64).sqrt();
         assert!((found - expected).abs() < noise, "{found} for {expected} +- {noise}, radius {radius}");
@@ -268,7 +268,7 @@ fn point_layers_lose_light_by_the_bias_law() {
 #[test]
 fn smooth_density_converges_with_the_order_of_its_opacity() {
     let coat = Coat { radius: 0.4, ..cone() };
-    let density = |height: f64| 4.0 * mean_coverage(coat.threshold(0.8 * height), coat.radius, 0.5);
+    let density = |height: f64| 4.0 * width(coat.threshold(0.8 * height), coat.radius);
     let color = |height: f64| 0.2 + 0.8 * height * height;
     let rule = gauss_legendre(48);
     let integral = |low: f64, high: f64, value: &dyn Fn(f64) -> f64| -> f64 {

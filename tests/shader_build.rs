@@ -8,6 +8,9 @@ mod compile;
 #[path = "../build/docs.rs"]
 mod docs;
 #[allow(dead_code)]
+#[path = "../build/function.rs"]
+mod function;
+#[allow(dead_code)]
 #[path = "../build/include.rs"]
 mod include;
 #[allow(dead_code)]
@@ -74,7 +77,7 @@ fn includes_and_defines_expand_with_their_lines() {
         ("pass/a.frag", "// doc\n#version 460\n#include \"b.glsl\"\nvoid main() {}\n"),
         ("lib/b.glsl", "float b;\n"),
     ]);
-    let text = include::expand(&one("a.frag UV N=3"), root.path()).unwrap();
+    let text = include::expand(&one("a.frag UV N=3"), &root.path().join("pass"), root.path()).unwrap();
     assert_eq!(
         relative(&text, root.path()),
         "// doc\n#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n#define UV 1\n#define N 3\n\
@@ -94,7 +97,8 @@ fn bad_includes_name_their_line() {
         ("lib/d.glsl", ""),
         ("pass/bare.frag", "void main() {}\n"),
     ]);
-    let error = |file: &str| relative(&include::expand(&one(file), root.path()).unwrap_err(), root.path());
+    let folder = root.path().join("pass");
+    let error = |file: &str| relative(&include::expand(&one(file), &folder, root.path()).unwrap_err(), root.path());
     assert_eq!(
         error("none.frag"),
         "pass/none.frag:3: `none.glsl` is in neither shaders_glsl/lib nor shaders_glsl/host"
@@ -120,7 +124,8 @@ fn a_shader_error_names_the_file_and_line_of_the_glsl() {
     ]);
     let compiler = compile::Compiler::find().unwrap();
     let compile = |line: &str| {
-        let spirv = compiler.compile(&one(line), root.path(), root.path());
+        let glsl = include::expand(&one(line), &root.path().join("pass"), root.path());
+        let spirv = glsl.and_then(|glsl| compiler.compile(&one(line), &glsl, root.path()));
         spirv.map(|words| words[0]).map_err(|error| relative(&error, root.path()))
     };
     assert_eq!(compile("a.frag"), Err("pass/a.frag:4: 'missing' : undeclared identifier".to_owned()));
@@ -136,7 +141,8 @@ fn reflection_does_without_constant_operations_and_sample_masks() {
                 void main() {\n    color = vec4(LAYERS > 1 ? 1.0 : 0.0);\n    gl_SampleMask[0] = gl_SampleMaskIn[0];\n}\n";
     let root = tree(&[("pass/a.frag", text)]);
     let compiler = compile::Compiler::find().unwrap();
-    let words = compiler.compile(&one("a.frag"), root.path(), root.path()).unwrap();
+    let glsl = include::expand(&one("a.frag"), &root.path().join("pass"), root.path()).unwrap();
+    let words = compiler.compile(&one("a.frag"), &glsl, root.path()).unwrap();
     let simple = spirv::for_reflection(&words);
     assert_eq!(simple[..5], words[..5]);
     let count = |words: &[u32], is_wanted: fn(&[u32]) -> bool| {
@@ -268,4 +274,28 @@ fn an_array_that_rust_cannot_mirror_is_refused() {
           scalar layout"
         ]
     );
+}
+
+#[test]
+fn functions_of_the_library_are_found_with_their_flattened_types() {
+    let mut library = function::Library::default();
+    let text = "// Doc.\n#ifndef A\nconst float X = 1.0;\nstruct Lamp {\n    vec3 color; // lux\n    uint kind;\n    float \
+                _reserved_0;\n};\nfloat lit(Lamp lamp, vec3 place,\n          bool is_near) {\n    return X;\n}\n#endif\n";
+    library.add("lamp.glsl", text, true).unwrap();
+    let [lit] = library.functions.as_slice() else { panic!("{:?}", library.functions) };
+    assert_eq!((lit.name.as_str(), lit.file.as_str(), lit.result.as_str()), ("lit", "lamp.glsl", "float"));
+    let values: Vec<_> = lit
+        .parameters
+        .iter()
+        .flat_map(|parameter| library.flatten(&parameter.ty, &parameter.name).unwrap())
+        .map(|value| (value.path, value.scalar, value.words))
+        .collect();
+    let expected =
+        [("lamp.color", "Float", 3), ("lamp.kind", "Uint", 1), ("place", "Float", 3), ("is_near", "Bool", 1)];
+    assert_eq!(values, expected.map(|(path, scalar, words)| (path.to_owned(), scalar, words)));
+    let mut error = |text: &str| library.add("b.glsl", text, true).unwrap_err();
+    assert_eq!(error("\nfloat f(inout vec3 x) {\n}\n"), "2: `inout vec3 x` is not a type and a name");
+    assert!(error("float lit(float x) {\n}\n").starts_with("1: `lit` is defined twice"));
+    assert!(error("precision highp float;\n").starts_with("1: `precision highp float;` is no definition"));
+    assert!(library.flatten("sampler2D", "map").is_err());
 }

@@ -6,11 +6,11 @@
 
 // Two numbers in [0, 1) that are fixed to the surface, one pair a cell about as wide as a pixel: an opacity that is met
 // where it exceeds the first keeps its mean, and its grain moves with the surface instead of the screen. The second
-// chooses samples.
+// chooses samples. Layers with different numbers are independent.
 // Source: Wyman & McGuire 2017, "Hashed Alpha Testing", with an integer hash for theirs of sines.
-vec2 coverage_grain(vec3 position, float pixel_size) {
+vec2 coverage_grain(vec3 position, float pixel_size, uint layer) {
     float cell_size = exp2(ceil(log2(max(pixel_size, 1e-30))));
-    return hash_cell(ivec3(floor(position / cell_size))).zy;
+    return hash_cell(ivec3(floor(position / cell_size)) + ivec3(int(layer) * 7919)).zy;
 }
 
 // Bits of the samples that an opacity in [0, 1] covers. `threshold` in [0, 1) rounds: one half to the nearest count,

@@ -3,6 +3,8 @@
 #define VAIR_DIRECTION_GLSL
 
 vec3 direction_or(vec3 vector, vec3 fallback) {
+    // Squares of more than 1.8e19 are infinite.
+    vector *= dot(vector, vector) < 1e30 ? 1.0 : 1e-20;
     float length_squared = dot(vector, vector);
     return length_squared > 1e-30 ? vector * inversesqrt(length_squared) : fallback;
 }

@@ -1,7 +1,11 @@
 // Punctual lights. Source: KHR_lights_punctual, "Range property" and "Inner and outer cone angles".
 #ifndef VAIR_LIGHT_GLSL
 #define VAIR_LIGHT_GLSL
+#include "direction.glsl"
 #include "frame.glsl"
+
+// Times the peak of the sharpest lobe (about 1e8) this is still a finite number; infinity times nothing would be NaN.
+const float LARGEST_IRRADIANCE = 1e30;
 
 struct LightSample {
     vec3 direction_in_world; // unit vector to the light
@@ -17,13 +21,13 @@ LightSample light_sample(LightSource light, vec3 position_in_world) {
     LightSample result;
     if (light.kind == LIGHT_DIRECTIONAL) {
         result.direction_in_world = light.direction_to_light;
-        result.irradiance = light.intensity;
+        result.irradiance = min(light.intensity, vec3(LARGEST_IRRADIANCE));
         return result;
     }
     vec3 to_light = light.position_in_world - position_in_world;
     // A surface inside the light would divide by zero; a millionth of a metre is below any scene's scale.
     float distance_squared = max(dot(to_light, to_light), 1e-12);
-    result.direction_in_world = to_light * inversesqrt(distance_squared);
+    result.direction_in_world = direction_or(to_light, vec3(0.0));
     float falloff = 1.0 / distance_squared;
     if (light.range_m > 0.0) {
         falloff *= light_range_window(distance_squared, light.range_m);
@@ -33,7 +37,7 @@ LightSample light_sample(LightSource light, vec3 position_in_world) {
         float cone = clamp(cosine * light.spot_scale + light.spot_offset, 0.0, 1.0);
         falloff *= cone * cone;
     }
-    result.irradiance = light.intensity * falloff;
+    result.irradiance = min(light.intensity * falloff, vec3(LARGEST_IRRADIANCE));
     return result;
 }
 

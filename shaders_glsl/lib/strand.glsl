@@ -9,56 +9,151 @@ const float STRAND_JITTER = 0.5;
 // Strands root in points at most this far (in cells) off the surface; one point a cell then makes one strand
 // per spacing squared of surface. Half a cell is also as far as the eight nearest cells are sure to tell.
 const float STRAND_REACH = 0.5;
-// Longest half of a view ray's segment (in cells) that strands are looked up along. The eight cells then miss a strand
-// in one place of a thousand.
-const float STRAND_SEGMENT = 0.25;
+// Longest half of a view ray's way through a slab (in cells) along which strands are looked up one by one.
+const float STRAND_WALK = 2.0;
+// Faces of cells that a way of twice that length can cross, in any direction.
+const int STRAND_FACES = 8;
 
-struct StrandSample {
-    float profile; // 1 on the axis of a full-length strand, falling linearly to 0 at its root radius and below it outside
-    float random;  // in [0, 1), one number a strand
+// What a shell stands for: the part of the view ray between its slab's two boundaries, as it moves relative to the
+// strands. A place on the path is a number in [-1, 1], from the slab's lower boundary to its upper one.
+struct StrandPath {
+    vec3 middle;          // root that the ray passes in the slab's middle, in cells
+    float threshold;      // of the profile there
+    vec3 half_segment;    // from the middle to the upper boundary, across the strands, in cells
+    float threshold_rise; // from the middle to the upper boundary
+    vec3 normal;          // unit vector
+    float radius;         // of strands at their root, in cells
+    float entry;          // where the ray comes in: 1 from above, -1 from below
+    float enough;         // half a pixel in root radii: the margin at which a strand fills it
 };
 
-// Distance of a point from the segment [-half_segment, half_segment] through the origin.
-float strand_segment_distance(vec3 point, vec3 half_segment) {
-    float length_squared = dot(half_segment, half_segment);
-    float along = clamp(dot(point, half_segment) / max(length_squared, 1e-20), -1.0, 1.0);
-    return length(point - along * half_segment);
+// Thinner strands, in cells, are none: their profile would be all rounding.
+const float STRAND_SMALLEST_RADIUS = 1e-3;
+
+struct StrandHit {
+    float margin; // how far inside a strand the ray comes, in root radii; negative: it misses all
+    float place;  // on the path: where the ray enters the first strand, or comes closest to one
+    float random; // in [0, 1), one number a strand
+};
+
+// What the ray meets of the strand in one cell. Along the path the profile is concave and the threshold linear, so that
+// their difference has one maximum and, before it, at most one zero.
+StrandHit strand_meet(StrandPath path, ivec3 cell) {
+    vec3 random = hash_cell(cell);
+    vec3 offset = (vec3(cell) - path.middle) + (0.5 - STRAND_JITTER + random * (2.0 * STRAND_JITTER));
+    float height = dot(offset, path.normal);
+    float reach = height / STRAND_REACH;
+    float radius = path.radius * (1.0 - reach * reach);
+    if (radius < STRAND_SMALLEST_RADIUS) { return StrandHit(-1e3, 0.0, 0.0); }
+    // The digits that the jitter along x does not use make an independent number.
+    float own_random = fract(random.x * 97.0 + random.y * 57.0);
+    float full_length = 0.75 + 0.25 * own_random;
+
+    vec3 across = offset - height * path.normal;
+    float half_length = length(path.half_segment);
+    float along = half_length > 1e-6 ? dot(across, path.half_segment) / half_length : 0.0;
+    float aside = sqrt(max(dot(across, across) - along * along, 0.0));
+    // The profile falls by full_length / radius a cell; where it falls more slowly than the threshold does, the lower
+    // end is best.
+    float fall = path.threshold_rise * radius;
+    float reachable = half_length * full_length;
+    float best = -sign(path.threshold_rise);
+    if (reachable > abs(fall)) {
+        float tilt = fall / reachable;
+        best = clamp((along - tilt * aside * inversesqrt(max(1.0 - tilt * tilt, 1e-6))) / half_length, -1.0, 1.0);
+    }
+    float from_axis = length(vec2(aside, best * half_length - along));
+    float above = full_length - (path.threshold + best * path.threshold_rise);
+    float margin = above - full_length * from_axis / radius;
+    // In root radii. What is thinner than a pixel covers no more of it than its own width.
+    float in_radii = radius / (full_length * path.radius);
+    float seen = min(margin * in_radii, 2.0 * above * in_radii - path.enough);
+    if (margin <= 0.0) { return StrandHit(seen, best, own_random); }
+
+    // The zero: where the distance from the axis is the radius that the threshold leaves, a quadratic in the place. From
+    // the maximum towards the entry it is the first of the two; the other is the mirrored cone's. None lies before the
+    // entry where the ray comes in within the strand.
+    float left = radius * (1.0 - path.threshold / full_length);
+    float shrink = fall / full_length;
+    float a = half_length * half_length - shrink * shrink;
+    float b = left * shrink - half_length * along;
+    float c = aside * aside + along * along - left * left;
+    float root = sqrt(max(b * b - a * c, 0.0));
+    float q = -(b + (b < 0.0 ? -root : root));
+    float to_first = abs(a) > 1e-12 ? (q / a - best) * path.entry : -1.0;
+    float to_second = abs(q) > 1e-12 ? (c / q - best) * path.entry : -1.0;
+    float to_entry = (path.entry - best) * path.entry;
+    if (to_first > -1e-4) { to_entry = min(to_entry, to_first); }
+    if (to_second > -1e-4) { to_entry = min(to_entry, to_second); }
+    return StrandHit(seen, best + max(to_entry, 0.0) * path.entry, own_random);
 }
 
-// Procedural strands: one jittered point per cell of a lattice in the rest pose, so that density does not
-// depend on UVs, nothing stretches, and nothing has seams. A point makes a strand where the surface passes
-// close by. `half_segment` is the part of the view ray that the shell stands for, projected along the strands
-// onto the surface ("slab shell"); its length is limited to what the eight nearest cells can answer.
-StrandSample strand_field(vec3 position_in_cells, vec3 normal, float radius_in_cells, vec3 half_segment) {
-    vec3 corner = floor(position_in_cells - 0.5);
-    StrandSample nearest = StrandSample(-1e3, 0.0);
+// Of two hits the first, or where not both are inside a strand the one with the larger margin; with the larger margin.
+StrandHit strand_first(StrandHit a, StrandHit b, float entry) {
+    bool both = a.margin > 0.0 && b.margin > 0.0;
+    bool is_b = both ? b.place * entry > a.place * entry : b.margin > a.margin;
+    return StrandHit(max(a.margin, b.margin), is_b ? b.place : a.place, is_b ? b.random : a.random);
+}
+
+// Procedural strands: one jittered point per cell of a lattice in the rest pose, so that density does not depend on
+// UVs, nothing stretches, and nothing has seams. A point makes a strand where the surface passes close by. Walks the
+// cells along the path from its entry until a strand is met: eight cells hold all strands that can reach a place, and
+// with each face that the path crosses four more come in.
+StrandHit strand_walk(StrandPath path) {
+    path.half_segment -= dot(path.half_segment, path.normal) * path.normal;
+    StrandHit hit = StrandHit(-1e3, 0.0, 0.0);
+    vec3 start = path.middle + path.entry * path.half_segment - 0.5;
+    vec3 way = -2.0 * path.entry * path.half_segment;
+    ivec3 corner = ivec3(floor(start));
     for (int index = 0; index < 8; ++index) {
-        vec3 cell = corner + vec3(float(index & 1), float((index >> 1) & 1), float(index >> 2));
-        vec3 random = hash_cell(ivec3(cell));
-        vec3 offset = cell + 0.5 + (random * 2.0 - 1.0) * STRAND_JITTER - position_in_cells;
-        float height = dot(offset, normal);
-        vec3 in_plane = offset - height * normal;
-        float reach = height / STRAND_REACH;
-        float radius = radius_in_cells * max(1.0 - reach * reach, 0.0);
-        float distance_to_axis = strand_segment_distance(in_plane, half_segment);
-        // The digits that the jitter along x does not use make an independent number.
-        float own_random = fract(random.x * 97.0 + random.y * 57.0);
-        float full_length = 0.75 + 0.25 * own_random;
-        float profile = full_length * (1.0 - distance_to_axis / max(radius, 1e-6));
-        if (profile > nearest.profile) {
-            nearest = StrandSample(profile, own_random);
+        hit = strand_first(hit, strand_meet(path, corner + ivec3(index & 1, (index >> 1) & 1, index >> 2)), path.entry);
+    }
+    vec3 steps = 1.0 / max(abs(way), vec3(1e-20));
+    vec3 share = start - vec3(corner);
+    vec3 next = mix(share, 1.0 - share, greaterThan(way, vec3(0.0))) * steps;
+    for (int face = 0; face < STRAND_FACES; ++face) {
+        float crossed = min(next.x, min(next.y, next.z));
+        // Nearer than the next face no other strand begins.
+        if (crossed >= 1.0 || (hit.margin >= path.enough && 0.5 - 0.5 * path.entry * hit.place <= crossed)) { break; }
+        ivec3 axis = next.x == crossed ? ivec3(1, 0, 0) : next.y == crossed ? ivec3(0, 1, 0) : ivec3(0, 0, 1);
+        bool ahead = dot(way, vec3(axis)) > 0.0;
+        corner += ahead ? axis : -axis;
+        next += vec3(axis) * steps;
+        ivec3 new_corner = ahead ? corner + axis : corner;
+        for (int index = 0; index < 4; ++index) {
+            ivec3 cell = new_corner + axis.yzx * (index & 1) + axis.zxy * (index >> 1);
+            hit = strand_first(hit, strand_meet(path, cell), path.entry);
         }
     }
-    return nearest;
+    hit.margin = min(hit.margin, path.enough);
+    return hit;
 }
 
-// Share of a surface that the procedural strands cover at a threshold, swept over a segment of that half length (in
-// cells), overlaps counted as chance. Over a strand's height h off the surface in [-1, 1], its radius 1 - h^2 has the
-// mean 2/3 and its square 8/15; full lengths in [.75, 1] are taken at their mean, 7/8.
-float strand_mean_coverage(float threshold, float radius_in_cells, float half_length_in_cells) {
-    float radius = radius_in_cells * max(1.0 - threshold / 0.875, 0.0);
-    float area = 3.14159265 * radius * radius * (8.0 / 15.0) + 4.0 * radius * half_length_in_cells * (2.0 / 3.0);
-    return 1.0 - exp(-area);
+// Mean over full lengths f in [0.75, 1] of (1 - threshold / f) and of its square, where positive: how much of their
+// radius, and of their cross-section, strands have left at a threshold >= 0.
+vec2 strand_left(float threshold) {
+    float least = max(threshold, 0.75);
+    if (least >= 1.0) { return vec2(0.0); }
+    float t_log = threshold * log(least);
+    return 4.0 * max(vec2(1.0 - least + t_log, 1.0 - least + 2.0 * t_log + threshold * threshold * (1.0 / least - 1.0)), 0.0);
+}
+
+// Mean cross-section of strands a cell of surface, overlaps counted twice. Over a strand's height h off the surface in
+// [-1, 1], its radius 1 - h^2 has the mean 2/3 and its square 8/15.
+float strand_cross_section(float threshold, float radius) {
+    return 3.14159265 * (8.0 / 15.0) * radius * radius * strand_left(threshold).y;
+}
+
+// The same of their widths, seen from the side.
+float strand_width(float threshold, float radius) {
+    return 2.0 * (2.0 / 3.0) * radius * strand_left(threshold).x;
+}
+
+// Mean opacity of a slab of strands that stand anywhere, met over `length_in_cells` across them. From above the ray
+// meets the caps that the slab above has not covered already, which `cap` is the area of; from anywhere it meets sides.
+// Shells of one strand thus do not count it twice, and the opacity of a coat does not depend on their number.
+float strand_slab_opacity(float cap, float width, float length_in_cells) {
+    return 1.0 - exp(-(max(cap, 0.0) + width * length_in_cells));
 }
 
 // Threshold of the strand profile at a height in the coat: a texel belongs to a strand where its profile reaches
@@ -74,11 +169,11 @@ float strand_unresolved(float slope) {
     return smoothstep(0.75, 2.0, slope);
 }
 
-// Opacity of a profile at a threshold, one pixel wide at the edge. `slope` is the change of the profile over a
-// pixel; below the eye's resolution (slope > 1) it fades to the mean coverage.
-float strand_opacity(float profile, float threshold, float slope, float mean_coverage) {
-    float edge = clamp((profile - threshold) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
-    return mix(edge, mean_coverage, strand_unresolved(slope));
+// Opacity at a margin, one pixel wide at the edge. `slope` is the change of the margin over a pixel; below the eye's
+// resolution (slope > 1) it fades to the mean.
+float strand_opacity(float margin, float slope, float mean) {
+    float edge = clamp(margin / max(slope, 1e-6) + 0.5, 0.0, 1.0);
+    return mix(edge, mean, strand_unresolved(slope));
 }
 
 // Strand bent to a circular arc that keeps its length: x = sideways, y = along the root direction, both over the
@@ -113,6 +208,10 @@ float strand_light_through_coat(float height, float occlusion, float cosine_to_l
     return exp(-depth_at_root * (1.0 - height) / max(cosine_to_light, 0.05));
 }
 
+// cos(phi / 2) for a direction along the fibre, which has no angle around it: its mean, 2 / pi, so that the lobe keeps its
+// integral.
+const float STRAND_HALF_COSINE_ALONG = 0.636619772;
+
 // Scattering lobe of a fibre: Gaussian in the sum of the sines of the two angles along the fibre (mean `shift`,
 // variance `variance`), cos(phi / 2) / 4 around it. Its integral over all directions is at most 1; no cosine
 // belongs to it. Azimuthal part: Marschner et al. 2003, "Light Scattering from Human Hair Fibers", section 5.
@@ -123,9 +222,12 @@ float strand_lobe(vec3 tangent, vec3 to_eye, vec3 to_light, float shift, float v
     float along = exp(-0.5 * deviation * deviation / variance) * inversesqrt(6.28318531 * variance);
     vec3 eye_across = to_eye - sine_eye * tangent;
     vec3 light_across = to_light - sine_light * tangent;
-    float lengths = dot(eye_across, eye_across) * dot(light_across, light_across);
-    float cosine = lengths > 1e-12 ? dot(eye_across, light_across) * inversesqrt(lengths) : 1.0;
-    return along * 0.25 * sqrt(max(0.5 + 0.5 * cosine, 0.0));
+    float eye_squared = dot(eye_across, eye_across);
+    float light_squared = dot(light_across, light_across);
+    // The half angle's cosine as half the length of a sum: 0.5 + 0.5 cos would cancel where the eye looks into the light.
+    vec3 sum = eye_across * inversesqrt(max(eye_squared, 1e-30)) + light_across * inversesqrt(max(light_squared, 1e-30));
+    float half_cosine = eye_squared * light_squared > 1e-12 ? 0.5 * length(sum) : STRAND_HALF_COSINE_ALONG;
+    return along * 0.25 * half_cosine;
 }
 
 // Variance of a lobe from the longitudinal roughness. Source: Chiang et al. 2016, "A Practical and Controllable

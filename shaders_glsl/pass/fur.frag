@@ -11,6 +11,9 @@
 #include "strand.glsl"
 #include "lock.glsl"
 #include "coverage.glsl"
+#ifdef COUNT
+#include "count.glsl"
+#endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
@@ -51,6 +54,13 @@ layout(location = 7) in vec3 vertex_color;
 
 layout(location = 0) out vec4 radiance;
 
+// Most places at which a distribution map is looked up along the path.
+const int MAP_TAPS = 8;
+
+float threshold_at(float height) {
+    return strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
+}
+
 // A vector of the shell's surface, given by how far it goes along the pixel's two steps.
 vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
     float xx = dot(step_x, step_x);
@@ -70,18 +80,36 @@ void main() {
                                               : direction_or(frame.eye_in_world - position_in_world, normal);
     float cosine_to_eye = dot(normal, to_eye);
 
-    // The shell stands for a slab. Through it the view ray shifts, relative to the strands, by half_slab on the
-    // surface to either side of the middle.
+    // The shell is the upper boundary of its slab, where the view ray comes in (or, seen from behind, goes out). Within
+    // the slab it goes on for `reach`, to the lower boundary or, past the outline, to where the surface bends away from
+    // it: at `share` of the slab's depth.
     vec3 step_x = dFdx(position_in_world);
     vec3 step_y = dFdy(position_in_world);
-    float slab_m = height_and_length.y / float(fur.layers);
-    float along_strand = max(dot(strand, normal), 0.1);
-    // Shells that face away are drawn, too: past the outline their strands stand out over it.
-    float along_ray = cosine_to_eye < 0.0 ? min(cosine_to_eye, -0.05) : max(cosine_to_eye, 0.05);
-    vec3 half_slab = 0.5 * slab_m * (to_eye / along_ray - strand / along_strand);
-    vec2 in_steps = in_pixel_steps(half_slab, step_x, step_y);
+    vec3 aside = to_eye - cosine_to_eye * normal;
+    vec2 aside_in_steps = in_pixel_steps(aside, step_x, step_y);
+    float bend = dot(aside, aside_in_steps.x * dFdx(normal) + aside_in_steps.y * dFdy(normal));
+    float slab_height = 1.0 / float(fur.layers);
+    float slab_m = height_and_length.y * slab_height;
+    float depth_m = slab_m * max(dot(strand, normal), 0.1);
+    float cosine = max(abs(cosine_to_eye), 0.02);
+    float inside = cosine * cosine - 2.0 * bend * depth_m;
+    float reach_m = inside > 0.0 ? 2.0 * depth_m / (cosine + sqrt(inside)) : cosine / bend;
+    float share = inside > 0.0 ? 1.0 : cosine * cosine / (2.0 * bend * depth_m);
+    // The same way relative to the strands, which lean.
+    vec3 way_in_world = (cosine_to_eye < 0.0 ? reach_m : -reach_m) * to_eye + share * slab_m * strand;
+    vec2 way_in_steps = in_pixel_steps(way_in_world, step_x, step_y);
 
-    float threshold = strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
+    uint layer = uint(height * float(fur.layers) - 0.25);
+    float upper_height = height;
+    float lower_height = height - share * slab_height;
+    if (SAMPLING == 1u) {
+        way_in_steps = vec2(0.0);
+        upper_height = height + 0.5 * slab_height;
+        lower_height = height - 0.5 * slab_height;
+    }
+    // Of the profile, where the way begins and ends.
+    float upper = threshold_at(upper_height);
+    float lower = threshold_at(lower_height);
     vec3 rest_x = dFdx(root_in_rest);
     vec3 rest_y = dFdy(root_in_rest);
     // The narrower side of the pixel: the wider one, at grazing angles, runs along the slab's segment.
@@ -98,42 +126,76 @@ void main() {
         uv_sets_y = vec4(uv_projected(rest_y, direction_in_rest) * fur.projection_scale, 0.0, 0.0);
     }
 #endif
-    float own_random = 0.5;
+    float own_random;
     float opacity;
     float slope;
+    // Where on the way, from -1 at its lower end to 1, the ray meets what it sees.
+    float place = 0.0;
+    float entry = cosine_to_eye < 0.0 ? -1.0 : 1.0;
 #ifdef MAPS
     if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
         vec2 gradient_x = uv_gradient(fur.distribution_transform, uv_sets_x);
         vec2 gradient_y = uv_gradient(fur.distribution_transform, uv_sets_y);
-        float map = textureGrad(sampler2D(distribution_map, distribution_sampler), map_uv, gradient_x, gradient_y).r;
+        vec2 way = way_in_steps.x * gradient_x + way_in_steps.y * gradient_y;
+        vec2 in_texels = way * vec2(textureSize(sampler2D(distribution_map, distribution_sampler), 0));
+        int taps = SAMPLING == 1u ? 1 : clamp(int(ceil(0.5 * length(in_texels))), 1, MAP_TAPS);
+        float margin = -1.0;
+        for (int tap = 0; tap < taps && margin < 0.0; ++tap) {
+            place = entry * (1.0 - (2.0 * float(tap) + 1.0) / float(taps));
+            vec2 uv = map_uv + (0.5 - 0.5 * place) * way;
+            float map = textureGrad(sampler2D(distribution_map, distribution_sampler), uv, gradient_x, gradient_y).r;
+            margin = max(margin, map - threshold_at(mix(lower_height, upper_height, 0.5 + 0.5 * place)));
+        }
         // A map is 0 between strands, however far they are: the edge must end there.
-        slope = min(fwidth(map), 2.0 * threshold);
-        opacity = strand_opacity(map, threshold, slope, map >= threshold ? 1.0 : 0.0);
+        slope = min(fwidth(margin), lower + upper);
+        opacity = strand_opacity(margin, slope, margin >= 0.0 ? 1.0 : 0.0);
         own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
     } else
 #endif
     {
         float cells_per_unit = 1.0 / fur.strand_spacing;
-        vec3 rest_normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
-        vec3 half_segment = (in_steps.x * rest_x + in_steps.y * rest_y) * cells_per_unit;
-        if (SAMPLING == 1u) { half_segment = vec3(0.0); }
-        float half_length = length(half_segment);
-        float seen_length = min(half_length, STRAND_SEGMENT);
-        half_segment *= seen_length / max(half_length, 1e-6);
-        vec3 in_cells = root_in_rest * cells_per_unit;
-        if (HAS_LOCKS) { in_cells = lock_root(in_cells, rest_normal, height, fur.clump, fur.curl); }
-        StrandSample field = strand_field(in_cells, rest_normal, fur.strand_radius, half_segment);
+        vec3 way = (way_in_steps.x * rest_x + way_in_steps.y * rest_y) * cells_per_unit;
+        float way_length = length(way);
+        float walked = min(way_length, 2.0 * STRAND_WALK);
+        float walked_share = way_length > 0.0 ? walked / way_length : 1.0;
+        lower = mix(upper, lower, walked_share);
+        lower_height = mix(upper_height, lower_height, walked_share);
+        StrandPath path;
+        path.normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
+        path.radius = fur.strand_radius;
+        path.entry = entry;
+        path.half_segment = -0.5 * walked_share * way;
+        path.middle = root_in_rest * cells_per_unit - path.half_segment;
+        path.threshold = 0.5 * (lower + upper);
+        path.threshold_rise = SAMPLING == 1u ? 0.0 : 0.5 * (upper - lower);
+        if (HAS_LOCKS) {
+            Lock lock = lock_at(path.middle, path.normal);
+            vec3 down = lock_way_to_root(lock.from_middle - path.half_segment, lock.random, path.normal, lower_height,
+                                         fur.clump, fur.curl);
+            vec3 up = lock_way_to_root(lock.from_middle + path.half_segment, lock.random, path.normal, upper_height,
+                                       fur.clump, fur.curl);
+            path.middle += 0.5 * (up + down);
+            if (SAMPLING != 1u) { path.half_segment += 0.5 * (up - down); }
+        }
         slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
-        opacity = strand_opacity(field.profile, threshold, slope,
-                                 strand_mean_coverage(threshold, fur.strand_radius, seen_length));
+        path.enough = 0.5 * slope;
+        StrandHit hit = strand_walk(path);
+        // Means are seen in the middle.
+        place = SAMPLING == 1u ? 0.0 : hit.place * (1.0 - strand_unresolved(slope));
+        own_random = hit.random;
+        float width = strand_width(path.threshold, fur.strand_radius);
+        // The outermost slab shows its strands' caps whole, and from below none are seen.
+        bool is_outermost = layer + 1u == fur.layers;
+        float above = ALPHA == 1u || is_outermost ? 0.0 : strand_cross_section(upper, fur.strand_radius);
+        float cap = entry < 0.0 ? 0.0 : strand_cross_section(lower, fur.strand_radius) - above;
+        float mean = strand_slab_opacity(cap, width, way_length);
+        opacity = ALPHA == 2u ? (hit.margin >= 0.0 ? 1.0 : 0.0) : strand_opacity(hit.margin, slope, mean);
         // Strands along the rest of a grazing ray: what they hide is known, if not where they stand.
-        float hidden = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, half_length);
-        float seen = 1.0 - strand_mean_coverage(threshold, fur.strand_radius, seen_length);
-        opacity = 1.0 - (1.0 - opacity) * (hidden / seen);
-        if (ALPHA == 2u) { opacity = field.profile >= threshold ? 1.0 : 0.0; }
-        own_random = field.random;
+        float rest = strand_slab_opacity(0.0, width, way_length - walked);
+        opacity += (1.0 - opacity) * rest * (1.0 - strand_unresolved(slope));
     }
+    height = mix(lower_height, upper_height, 0.5 + 0.5 * place);
     // Each factor lies in [0, 1], so their product does.
     opacity *= (1.0 - fur.tip_fade * height) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 
@@ -141,14 +203,20 @@ void main() {
     float unresolved = strand_unresolved(slope);
     int mask = -1;
     if (BLEND) {
-        if (opacity <= 0.0) { discard; }
+        mask = opacity > 0.0 ? -1 : 0;
     } else {
         // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
-        vec2 grain = coverage_grain(root_in_rest, pixel_in_rest);
+        // Seen one by one, the shells of a strand cover the same samples; means are met by chance, each its own.
+        vec2 grain = coverage_grain(root_in_rest, pixel_in_rest, unresolved > 0.0 ? layer : 0u);
         float rounding = mix(0.5, grain.x, KEEP_PARTIAL ? 1.0 : unresolved);
         mask = coverage_mask(opacity, samples, rounding, grain.y);
-        if (mask == 0) { discard; }
     }
+#ifdef COUNT
+    count_fragment(uint(mask), samples, !BLEND);
+    radiance = vec4(1.0);
+    if (mask == 0) { discard; }
+#else
+    if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
 
     vec3 color = fur.base_color;
@@ -182,4 +250,5 @@ void main() {
     }
     sum = min(sum, vec3(RADIANCE_LIMIT));
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+#endif
 }

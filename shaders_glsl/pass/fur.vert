@@ -11,6 +11,7 @@
 #include "uv.glsl"
 
 layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
+layout(constant_id = 14) const uint SAMPLING = 0;          // 0 slab, 1 point
 layout(constant_id = 16) const uint SHELL_SOURCE = 0;      // 0 instance, 1 draw, 2 vertex
 layout(constant_id = 2) const bool PROJECT_UV = false;     // 1: the mesh has no UVs
 layout(constant_id = 3) const bool HAS_HEIGHT_MAP = false;
@@ -41,6 +42,9 @@ layout(location = 5) in vec4 color;
 #ifdef COMB
 layout(location = 7) in vec3 shell_side;
 #endif
+#ifdef SWAY
+layout(location = 8) in vec3 sway; // force of the strands' own inertia, of length in [0, 1], world space
+#endif
 
 layout(location = 0) out vec3 position_in_world;
 layout(location = 1) out vec3 root_direction_in_world;
@@ -64,8 +68,8 @@ void main() {
     if (SHELL_SOURCE == 1u) { shell = draw.shell; }
     if (SHELL_SOURCE == 2u) { shell = uint(gl_VertexIndex) / draw.vertices_per_shell; }
     uint layer = INNER_FIRST ? shell : fur.layers - 1u - shell;
-    // The middle of slab [layer / N, (layer + 1) / N].
-    float height = (float(layer) + 0.5) / float(fur.layers);
+    // Of slab [layer / N, (layer + 1) / N], the upper boundary, where view rays come in, or the middle.
+    float height = (float(layer) + (SAMPLING == 1u ? 0.5 : 1.0)) / float(fur.layers);
 
     float strand_length = fur.length_m;
 #ifdef COLOR
@@ -83,6 +87,9 @@ void main() {
 #endif
 
     vec3 total = fur.force;
+#ifdef SWAY
+    total += sway;
+#endif
 #ifdef COMB
     // The comb lays strands over in the tangent plane; its axes are fixed to the surface and move with it.
     vec3 side = mat3(world_from_object) * shell_side;

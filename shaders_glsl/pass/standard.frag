@@ -9,6 +9,10 @@
 #include "hash.glsl"
 #include "coverage.glsl"
 #include "standard.glsl"
+#ifdef COUNT
+#define UNLIT
+#include "count.glsl"
+#endif
 
 layout(constant_id = 0) const uint ALPHA_MODE = 0; // 0 opaque, 1 mask, 2 blend
 layout(constant_id = 1) const uint SAMPLE_COUNT = 1;
@@ -134,7 +138,10 @@ void main() {
     }
     if (mode == 2u) { opacity = clamp(color.a, 0.0, 1.0); }
 
-#ifdef UNLIT
+#ifdef COUNT
+    count_fragment(uint(mask), samples, mode != 2u);
+    radiance = vec4(1.0);
+#elif defined UNLIT
     radiance = vec4(color.rgb * opacity, opacity);
 #else
     vec3 normal = direction_or(normal_in_world, frame.view_in_world);

@@ -5,9 +5,9 @@ use super::scene::SceneArguments;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
-use vair::asset::Asset;
-use vair::gpu::{format_bytes, level_size, vk};
-use vair::render::{FrameOptions, HdrFormat, Pass, PipelineSpec, Plan, Shot, TextureUse};
+use std::collections::BTreeSet;
+use vair::gpu::format_bytes;
+use vair::render::{Attachment, FrameOptions, PICTURE_FORMAT, Pass, PipelineSpec, Plan, Shot, TextureUse};
 use vair::scene::Scene;
 
 #[derive(Debug, Args)]
@@ -45,16 +45,20 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
     let pipelines = compute.chain(plan.pipelines.iter().chain([&tonemap]).map(pipeline));
     let textures = plan.textures.iter().map(|texture| {
         let name = &scene.asset().images[texture.image].name;
-        json!({ "name": name, "format": format(texture), "bytes": texture_bytes(scene.asset(), texture) })
+        json!({ "name": name, "format": format(texture), "bytes": texture.bytes(scene.asset()) })
     });
     json!({
         "passes": passes.collect::<Vec<_>>(),
+        "attachments": plan.attachments.iter().map(|attachment| json!({
+            "name": attachment.name, "format": format!("{:?}", attachment.format), "samples": attachment.samples,
+            "bytes": attachment.bytes(options.size),
+        })).collect::<Vec<_>>(),
         "pipelines": pipelines.collect::<Vec<_>>(),
         "textures": textures.collect::<Vec<_>>(),
         "memory": {
             "vertex_bytes": plan.stream_bytes(scene.asset()), "index_bytes": plan.index_bytes(scene.asset()),
-            "texture_bytes": plan.textures.iter().map(|texture| texture_bytes(scene.asset(), texture)).sum::<u64>(),
-            "target_bytes": target_bytes(options),
+            "texture_bytes": plan.textures.iter().map(|texture| texture.bytes(scene.asset())).sum::<u64>(),
+            "target_bytes": target_bytes(plan, options), "by_owner": plan.memory(scene, options),
         },
         "left_out": plan.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
         "lint": scene.asset().warnings,
@@ -66,23 +70,27 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     for pass in &plan.passes {
         text += &format!("  {:<12} {} draws\n", pass.name(), draws(plan, *pass));
     }
+    text += "attachments\n";
+    for Attachment { name, format, samples, .. } in &plan.attachments {
+        text += &format!("  {name} {format:?}, {samples} samples\n");
+    }
     text += "pipelines\n";
     for spec in &plan.compute_pipelines {
         text += &format!("  {} ({})\n", spec.shader, constants_text(&spec.constants));
     }
     for spec in plan.pipelines.iter().chain([&tonemap(options)]) {
         text += &format!("  {} with {} ({})\n", spec.fragment, spec.vertex, constants_text(&spec.constants));
+        let names = |set: BTreeSet<&str>| set.into_iter().collect::<Vec<_>>().join(" ");
+        text += &format!("    binds {}, reads {}\n", names(spec.bindings()), names(spec.inputs()));
     }
-    let (streams, indices) = (plan.stream_bytes(scene.asset()), plan.index_bytes(scene.asset()));
-    text += &format!("vertex streams: {streams} bytes, indices: {indices} bytes\n");
+    text += "vertex streams\n";
     for ((mesh, primitive), streams) in &plan.streams {
         let name = scene.asset().meshes[*mesh].name.as_deref().unwrap_or("mesh");
         text += &format!("  {name}.{primitive}: {streams:?}\n");
     }
-    text += &format!("targets: {} bytes\ntextures\n", target_bytes(options));
-    for texture in &plan.textures {
-        let (name, bytes) = (&scene.asset().images[texture.image].name, texture_bytes(scene.asset(), texture));
-        text += &format!("  {name} ({}, {bytes} bytes)\n", format(texture));
+    text += "memory, bytes\n";
+    for (owner, bytes) in plan.memory(scene, options) {
+        text += &format!("  {bytes:>12} {owner}\n");
     }
     text += "left out\n";
     for left in &plan.left_out {
@@ -96,12 +104,13 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
 
 /// The tone mapping is no part of the plan, since it depends on the target; `vair render` draws into this one.
 fn tonemap(options: &FrameOptions) -> PipelineSpec {
-    PipelineSpec::tonemap(options.tonemap, options.hdr_format, vk::Format::R8G8B8A8_UNORM)
+    PipelineSpec::tonemap(options.tonemap, options.hdr_format, PICTURE_FORMAT)
 }
 
 fn draws(plan: &Plan, pass: Pass) -> usize {
     match pass {
         Pass::Deform => plan.deforms.len(),
+        Pass::Sway => plan.sways.len(),
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
@@ -115,7 +124,7 @@ fn pipeline(spec: &PipelineSpec) -> Value {
         "state": {
             "vertex": spec.vertex, "fragment": spec.fragment, "constants": constants(&spec.constants),
             "topology": format!("{:?}", spec.topology), "blend": spec.blend, "depth": format!("{:?}", spec.depth),
-            "samples": spec.samples, "color_format": format!("{:?}", spec.color_format),
+            "bindings": spec.bindings(), "inputs": spec.inputs(), "samples": spec.samples, "color_format": format!("{:?}", spec.color_format),
         },
     })
 }
@@ -132,22 +141,8 @@ fn format(texture: &TextureUse) -> &'static str {
     if texture.srgb { "rgba8 srgb" } else { "rgba8 data" }
 }
 
-/// All mip levels, down to one texel.
-fn texture_bytes(asset: &Asset, texture: &TextureUse) -> u64 {
-    let image = &asset.images[texture.image];
-    let size = [image.width, image.height].map(|side| side.max(1));
-    let levels = 32 - size[0].max(size[1]).leading_zeros();
-    (0..levels).filter_map(|level| format_bytes(vk::Format::R8G8B8A8_UNORM, level_size(size, level))).sum()
-}
-
-/// Colour and depth at every sample, the resolved colour, and the picture.
-fn target_bytes(options: &FrameOptions) -> u64 {
-    let pixels = options.size.iter().map(|side| u64::from(*side)).product::<u64>();
-    let color = match options.hdr_format {
-        HdrFormat::Rgba16f => 8,
-        HdrFormat::B10g11r11 => 4,
-    };
-    let (depth, picture) = (4, 4);
-    let resolved = if options.msaa > 1 { color } else { 0 };
-    pixels * (u64::from(options.msaa) * (color + depth) + resolved + picture)
+/// What the frame draws into, and the picture.
+fn target_bytes(plan: &Plan, options: &FrameOptions) -> u64 {
+    let picture = format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0);
+    plan.attachments.iter().map(|attachment| attachment.bytes(options.size)).sum::<u64>() + picture
 }

@@ -8,12 +8,14 @@ mod devices;
 mod inspect;
 mod output;
 mod presets;
+mod profile;
 mod quality;
 mod render;
 mod report;
 mod scene;
 mod sequence;
 mod values;
+mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use std::panic::{self, AssertUnwindSafe};
@@ -38,6 +40,10 @@ enum Command {
     Inspect(Box<inspect::InspectArguments>),
     /// Measures error against run time, and writes tables, plots and one page.
     Report(report::ReportArguments),
+    /// Evaluates every shader function on the device and compares it with its double-precision twin.
+    Verify(verify::VerifyArguments),
+    /// Measures a frame: times, fragments and memory.
+    Profile(Box<profile::ProfileArguments>),
     /// Lists the Vulkan devices, and why one is refused.
     Devices(devices::DevicesArguments),
     /// Lists the material presets and their parameters.
@@ -63,6 +69,8 @@ fn parse_and_run() -> ExitCode {
             Command::Render(arguments) => render::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
             Command::Report(arguments) => report::run(&arguments),
+            Command::Verify(arguments) => verify::run(&arguments),
+            Command::Profile(arguments) => profile::run(&arguments),
             Command::Devices(arguments) => devices::run(&arguments),
             Command::Presets(arguments) => presets::run(&arguments),
         },

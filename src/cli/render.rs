@@ -9,13 +9,16 @@ use anyhow::{Result, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use vair::gpu::{DeviceInfo, GpuOptions};
-use vair::render::{FrameOptions, FrameReport, PictureFormat, Renderer};
+use vair::material::Material;
+use vair::profile::Spread;
+use vair::render::{FrameOptions, FrameReport, PassFragments, PictureFormat, Renderer};
 use vair::scene::Scene;
 
 #[derive(Debug, Args)]
@@ -78,42 +81,67 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         validate: arguments.validate,
         pipeline_cache_dir: pipeline_cache_dir(),
     })?;
-    let mut frames_ms = Vec::new();
+    let mut times = FrameTimes { load_ms, ..FrameTimes::default() };
     let mut last = None;
     let progress = progress(count);
-    for Shot { path, offset_s } in arguments.shots() {
-        let options = FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+    let at = |offset_s: f64| FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+    let sways = |material: &Material| material.fur.as_ref().is_some_and(|fur| fur.inertia > 0.0);
+    let sways = scene.materials().iter().any(sways);
+    let mut reached = arguments.frames.as_ref().map_or(0, |frames| frames.start);
+    for Shot { path, frame, offset_s } in arguments.shots() {
+        // Strands come here on the same way whatever is drawn of it.
+        for offset_s in sequence::steps(reached, frame, arguments.fps).take_while(|_| sways) {
+            renderer.advance(&scene, &at(offset_s))?;
+        }
+        reached = frame;
+        let options = at(offset_s);
         let (picture, report) = renderer.render_reported(&scene, &options, format == PictureFormat::Exr)?;
         if to_stdout {
             output::print_bytes(&picture.encode(format)?)?;
         } else {
             picture.save(&path)?;
         }
-        frames_ms.push(report.frame_ms);
-        last = Some((path, report));
+        times.add(&report);
+        last = Some((path, options, report));
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let Some((path, mut report)) = last else { bail!("no frame was asked for") };
-    let first_ms = frames_ms[0];
+    let Some((path, options, mut report)) = last else { bail!("no frame was asked for") };
+    let first_ms = times.frames_ms[0];
 
     // The picture's own frame was the warm-up.
     if let Some(count) = arguments.bench {
-        frames_ms.clear();
+        times = FrameTimes { load_ms, ..FrameTimes::default() };
         for _ in 0..count {
             (_, report) = renderer.render_reported(&scene, &options, false)?;
-            frames_ms.push(report.frame_ms);
+            times.add(&report);
         }
     }
 
     let info = renderer.gpu().info().clone();
+    let host_peak_bytes = host_peak_bytes();
+    // Last: counting takes pipelines and memory of its own.
+    let fragments = match arguments.json && info.fragment_stores {
+        true => renderer.count_fragments(&scene, &options)?,
+        false => Vec::new(),
+    };
     // What the end of the device brings up counts, too.
     let log = renderer.gpu().validation_log();
     drop(renderer);
     let messages = log.messages();
-    let times = FrameTimes { load_ms, first_ms, frames_ms: &frames_ms };
+    times.first_ms = first_ms;
     if arguments.json {
-        output::print_json(&summary(&info, &messages, &scene, &path, &options, &report, &times))?;
+        output::print_json(&summary(&Rendered {
+            info: &info,
+            messages: &messages,
+            scene: &scene,
+            path: &path,
+            options: &options,
+            report: &report,
+            times: &times,
+            fragments: &fragments,
+            host_peak_bytes,
+        }))?;
     } else if !to_stdout {
         output::print(&as_text(&path, count, &report, &times))?;
     }
@@ -126,6 +154,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
 /// One picture to make.
 struct Shot {
     path: PathBuf,
+    /// Number in the sequence.
+    frame: u32,
     /// Seconds after `--time`.
     offset_s: f64,
 }
@@ -138,9 +168,10 @@ impl RenderArguments {
 
     fn shots(&self) -> Box<dyn Iterator<Item = Shot> + '_> {
         match self.frame_numbers() {
-            None => Box::new(std::iter::once(Shot { path: self.out.clone(), offset_s: 0.0 })),
+            None => Box::new(std::iter::once(Shot { path: self.out.clone(), frame: 0, offset_s: 0.0 })),
             Some(frames) => Box::new(frames.map(|frame| Shot {
                 path: sequence::file(&self.out, frame),
+                frame,
                 offset_s: f64::from(frame) / f64::from(self.fps),
             })),
         }
@@ -158,36 +189,55 @@ fn progress(frames: usize) -> ProgressBar {
     }
 }
 
-struct FrameTimes<'a> {
+/// Times of the frames that count: with --bench the timed ones, otherwise all.
+#[derive(Default)]
+struct FrameTimes {
     load_ms: f64,
     first_ms: f64,
-    frames_ms: &'a [f64],
+    frames_ms: Vec<f64>,
+    /// By name of the pass.
+    passes_ms: BTreeMap<String, Vec<f64>>,
 }
 
-/// Smallest, middle and largest of at least one value.
-fn spread(values: &[f64]) -> (f64, f64, f64) {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    let median = if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) };
-    (sorted[0], median, sorted[sorted.len() - 1])
+impl FrameTimes {
+    fn add(&mut self, report: &FrameReport) {
+        self.frames_ms.push(report.frame_ms);
+        for pass in &report.passes {
+            self.passes_ms.entry(pass.name.clone()).or_default().extend(pass.gpu_ms);
+        }
+    }
+
+    fn of_pass(&self, name: &str) -> Option<Spread> {
+        Spread::of(self.passes_ms.get(name)?)
+    }
 }
 
-fn summary(
-    info: &DeviceInfo,
-    messages: &[String],
-    scene: &Scene,
-    path: &Path,
-    options: &FrameOptions,
-    report: &FrameReport,
-    times: &FrameTimes,
-) -> Value {
-    let (min, median, max) = spread(times.frames_ms);
+/// What `--json` tells of.
+struct Rendered<'a> {
+    info: &'a DeviceInfo,
+    messages: &'a [String],
+    scene: &'a Scene,
+    path: &'a Path,
+    options: &'a FrameOptions,
+    report: &'a FrameReport,
+    times: &'a FrameTimes,
+    fragments: &'a [PassFragments],
+    host_peak_bytes: Option<u64>,
+}
+
+fn summary(rendered: &Rendered) -> Value {
+    let Rendered { info, messages, scene, path, options, report, times, fragments, host_peak_bytes } = *rendered;
+    let frames = Spread::of(&times.frames_ms);
+    let frame = |value: fn(&Spread) -> f64| frames.as_ref().map(|spread| milliseconds(value(spread)));
     let passes = report.passes.iter().map(|pass| {
+        let spread = times.of_pass(&pass.name);
+        let gpu_ms = |value: fn(&Spread) -> f64| spread.as_ref().map(|spread| milliseconds(value(spread)));
+        let fragments = fragments.iter().find(|counted| counted.pass.name() == pass.name);
         json!({
-            "name": pass.name, "gpu_ms": pass.gpu_ms.map(milliseconds), "draws": pass.draws,
-            "instances": pass.instances, "triangles": pass.triangles,
-            "fragments": pass.statistics.as_ref().map(|statistics| statistics.fragment_invocations),
+            "name": pass.name, "gpu_ms": gpu_ms(|spread| spread.median), "gpu_ms_min": gpu_ms(|spread| spread.min),
+            "gpu_ms_max": gpu_ms(|spread| spread.max), "gpu_ms_count": spread.map_or(0, |spread| spread.count),
+            "draws": pass.draws, "instances": pass.instances, "triangles": pass.triangles,
+            "fragments": fragments.map(|counted| counted.shaded),
         })
     });
     let fur = report.fur.iter().map(|coat| {
@@ -203,13 +253,13 @@ fn summary(
         "image": { "path": path.to_string_lossy(), "width": options.size[0], "height": options.size[1] },
         "ms": {
             "load": milliseconds(times.load_ms), "pipelines": milliseconds(report.pipelines_ms),
-            "first_frame": milliseconds(times.first_ms), "frame_min": milliseconds(min),
-            "frame_median": milliseconds(median), "frame_max": milliseconds(max),
+            "first_frame": milliseconds(times.first_ms), "frame_min": frame(|spread| spread.min),
+            "frame_median": frame(|spread| spread.median), "frame_max": frame(|spread| spread.max),
             "frame_count": times.frames_ms.len(),
         },
         "passes": passes.collect::<Vec<_>>(),
         "fur": fur.collect::<Vec<_>>(),
-        "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes() },
+        "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes },
         "left_out": left_out.collect::<Vec<_>>(),
         "warnings": scene.asset().warnings,
         "validation_messages": messages,
@@ -224,31 +274,22 @@ fn host_peak_bytes() -> Option<u64> {
 }
 
 fn as_text(path: &Path, count: usize, report: &FrameReport, times: &FrameTimes) -> String {
-    let (min, median, max) = spread(times.frames_ms);
     let mut text = match count {
         1 => format!("{}\n", path.display()),
         _ => format!("{count} frames, the last {}\n", path.display()),
     };
-    text += &match times.frames_ms {
-        [_] => format!("frame: {median:.1} ms, with uploads and pipelines ({:.1} ms)\n", report.pipelines_ms),
-        all => format!("frame: median {median:.1} ms, {min:.1} to {max:.1} ms over {} frames\n", all.len()),
-    };
+    if let Some(Spread { median, min, max, count }) = Spread::of(&times.frames_ms) {
+        text += &match count {
+            1 => format!("frame: {median:.1} ms, with uploads and pipelines ({:.1} ms)\n", report.pipelines_ms),
+            _ => format!("frame: median {median:.1} ms, {min:.1} to {max:.1} ms over {count} frames\n"),
+        };
+    }
     for pass in &report.passes {
-        let time = pass.gpu_ms.map_or_else(|| "not timed".to_owned(), |ms| format!("{ms:.2} ms"));
+        let median = times.of_pass(&pass.name).map(|spread| spread.median);
+        let time = median.map_or_else(|| "not timed".to_owned(), |ms| format!("{ms:.2} ms"));
         let (name, draws, instances, triangles) = (pass.name.as_str(), pass.draws, pass.instances, pass.triangles);
         text += &format!("  {name:<12} {time:>12}  {draws} draws, {instances} instances, {triangles} triangles\n");
     }
     text += &format!("device memory: {:.1} MiB\n", report.memory.device_bytes as f64 / f64::from(1 << 20));
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_median_of_an_even_number_lies_between() {
-        assert_eq!(spread(&[4.0, 1.0, 3.0, 2.0]), (1.0, 2.5, 4.0));
-        assert_eq!(spread(&[5.0]), (5.0, 5.0, 5.0));
-    }
 }

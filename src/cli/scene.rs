@@ -166,6 +166,7 @@ impl SceneArguments {
                 Some(_) => 4,
                 None => self.quality.msaa(),
             },
+            everything: false,
         })
     }
 

@@ -15,6 +15,21 @@ pub fn frames(range: Range<u32>, shard: Option<Shard>) -> impl Iterator<Item = u
     range.skip(skip as usize).step_by(parts as usize)
 }
 
+/// Longest step of strands that lag behind, seconds: a slow sequence takes several a frame.
+const LONGEST_STEP_S: f64 = 1.0 / 60.0;
+/// Most steps a frame, ten seconds of them: frames farther apart find strands at rest.
+const MOST_STEPS: f64 = 600.0;
+
+/// Moments to pass through from frame `from` to frame `to` without drawing, in seconds after frame 0: always the same ones
+/// between two frames, whichever of them are drawn. Frame `from` is among them, `to` is not.
+pub fn steps(from: u32, to: u32, fps: f32) -> impl Iterator<Item = f64> {
+    let fps = f64::from(fps);
+    let pieces = (1.0 / (fps * LONGEST_STEP_S)).ceil().clamp(1.0, MOST_STEPS) as u32;
+    (from..to).flat_map(move |frame| {
+        (0..pieces).map(move |piece| (f64::from(frame) + f64::from(piece) / f64::from(pieces)) / fps)
+    })
+}
+
 /// The file of a frame: `{frame}` in the name becomes the number; without it the number goes before the ending.
 pub fn file(path: &Path, frame: u32) -> PathBuf {
     let number = format!("{frame:04}");
@@ -44,6 +59,16 @@ mod tests {
         let end = u32::MAX;
         assert_eq!(frames(end - 3..end, Some((3, 4))).collect::<Vec<_>>(), Vec::<u32>::new());
         assert_eq!(frames(end - 3..end, Some((1, 4))).collect::<Vec<_>>(), [end - 2]);
+    }
+
+    #[test]
+    fn slow_sequences_take_small_steps() {
+        assert_eq!(steps(2, 3, 24.0).collect::<Vec<_>>(), [2.0, 2.0 + 1.0 / 3.0, 2.0 + 2.0 / 3.0].map(|at| at / 24.0));
+        assert_eq!(steps(2, 5, 60.0).collect::<Vec<_>>(), [2.0, 3.0, 4.0].map(|at| at / 60.0));
+        assert_eq!(steps(3, 3, 1.0).count(), 0);
+        let apart: Vec<_> = steps(0, 3, 7.0).chain(steps(3, 4, 7.0)).collect();
+        assert_eq!(apart, steps(0, 4, 7.0).collect::<Vec<_>>());
+        assert!(apart.windows(2).all(|two| two[1] - two[0] <= LONGEST_STEP_S + 1e-12));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
-use super::memory::{Block, Memory};
+use super::memory::{Block, Memory, MemoryUse};
 use ash::vk;
 use std::sync::{Arc, Mutex};
 
@@ -58,7 +58,8 @@ impl Gpu {
         context.set_name(raw, name);
         // SAFETY: the buffer was just created.
         let requirements = unsafe { context.device.get_buffer_memory_requirements(raw) };
-        let block = lock(&context.heap).allocate(name, requirements, memory, true)?;
+        let memory_use = MemoryUse::of_buffer(usage, memory);
+        let block = lock(&context.heap).allocate(name, requirements, memory, memory_use, true)?;
         // SAFETY: the memory belongs to `allocation` for as long as the block lives.
         let device_memory = unsafe { block.allocation.memory() };
         let offset = block.allocation.offset();
@@ -98,6 +99,7 @@ impl Buffer {
         let mut block = lock(&inner.block);
         let mapped = block.as_mut().and_then(|block| block.allocation.mapped_slice_mut()).ok_or_else(problem)?;
         mapped.get_mut(byte_offset as usize..end).ok_or_else(problem)?.copy_from_slice(bytes);
+        inner.context.device.count_upload(bytes.len() as u64);
         Ok(())
     }
 

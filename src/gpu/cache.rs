@@ -3,6 +3,7 @@
 //! The file is keyed by device and driver and wrapped in a checksum, because drivers trust what they are given. A file
 //! that does not check is ignored and replaced: a cache can only make a start slower, never wrong.
 
+use super::calls::Device;
 use super::choose::DeviceInfo;
 use ash::vk;
 use std::io::Write;
@@ -22,7 +23,7 @@ pub(crate) struct PipelineCache {
 
 impl PipelineCache {
     /// Never fails: without a usable file or cache object, pipelines are just compiled.
-    pub(crate) fn open(device: &ash::Device, info: &DeviceInfo, dir: Option<&Path>) -> Self {
+    pub(crate) fn open(device: &Device, info: &DeviceInfo, dir: Option<&Path>) -> Self {
         let path = dir.map(|dir| dir.join(file_name(info)));
         let data = path.as_deref().map(|path| read(path, info)).unwrap_or_default();
         let create_info = vk::PipelineCacheCreateInfo::default().initial_data(&data);
@@ -35,7 +36,7 @@ impl PipelineCache {
     }
 
     /// Writes the file, if there is one to write.
-    pub(crate) fn save(&self, device: &ash::Device) {
+    pub(crate) fn save(&self, device: &Device) {
         let Some(path) = &self.path else { return };
         if self.raw == vk::PipelineCache::null() {
             return;

@@ -1,6 +1,7 @@
 //! The logical device and everything that lives as long as it does.
 
 use super::cache::PipelineCache;
+use super::calls::Device;
 use super::choose::{self, Candidate, DeviceInfo};
 use super::encoder::Encoder;
 use super::error::GpuError;
@@ -45,28 +46,6 @@ impl Drop for Owner {
         let on_host = lock(&self.0.retired).take_host();
         drop((in_flight, on_host));
         self.0.cache.save(&self.0.device);
-    }
-}
-
-/// A logical device, destroyed on drop unless a host owns it.
-pub(crate) struct Device {
-    raw: ash::Device,
-    is_owned: bool,
-}
-
-impl std::ops::Deref for Device {
-    type Target = ash::Device;
-    fn deref(&self) -> &ash::Device {
-        &self.raw
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        if self.is_owned {
-            // SAFETY: created here; all child objects hold the context and so are gone.
-            unsafe { self.raw.destroy_device(None) };
-        }
     }
 }
 
@@ -119,7 +98,7 @@ impl Gpu {
         // SAFETY: only supported features and an existing queue family are asked for.
         let raw = unsafe { instance.create_device(candidate.physical, &info, None) }
             .map_err(|result| GpuError::from_vk("opening device", &candidate.info.name, result))?;
-        let device = Device { raw, is_owned: true };
+        let device = Device::new(raw, true);
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { device.get_device_queue(candidate.family, 0) };
         Self::assemble(instance, device, queue, candidate, options.pipeline_cache_dir.as_deref())
@@ -147,7 +126,7 @@ impl Gpu {
         candidate.features = host.features;
         candidate.info.set_optional(&host.features);
         let instance = Instance::from_host(host.entry, host.instance, host.has_debug_utils);
-        let device = Device { raw: host.device, is_owned: false };
+        let device = Device::new(host.device, false);
         Self::assemble(instance, device, host.queue, candidate, host.pipeline_cache_dir.as_deref())
     }
 
@@ -160,7 +139,7 @@ impl Gpu {
     ) -> Result<Self, GpuError> {
         let Candidate { physical, family, info, .. } = candidate;
         let heap = Heap::new(&instance, &device, physical, info.memory_bytes)?;
-        let debug = instance.has_debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let debug = instance.has_debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, device.uncounted()));
         let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
         let semaphore = vk::SemaphoreCreateInfo::default().push_next(&mut kind);
         // SAFETY: timeline semaphores are a required feature.

@@ -277,10 +277,12 @@ impl Encoder {
         self.kept.keep(thing);
     }
 
-    pub(crate) fn count(&mut self, instances: u64, triangles: u64) {
+    /// Counts a draw or dispatch; vertices and triangles are those of one instance.
+    pub(crate) fn count(&mut self, instances: u64, vertices: u64, triangles: u64) {
         if let Some(pass) = self.passes.last_mut() {
             pass.draws += 1;
             pass.instances += instances;
+            pass.vertices += vertices * instances;
             pass.triangles += triangles * instances;
         }
     }

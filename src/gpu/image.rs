@@ -4,7 +4,7 @@ use super::barrier::ImageUse;
 use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
 use super::format;
-use super::memory::{Block, Memory};
+use super::memory::{Block, Memory, MemoryUse};
 use ash::vk;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
@@ -100,7 +100,8 @@ impl Gpu {
         context.set_name(raw, desc.name);
         // SAFETY: the image was just created.
         let requirements = unsafe { context.device.get_image_memory_requirements(raw) };
-        let block = lock(&context.heap).allocate(desc.name, requirements, Memory::Device, false)?;
+        let memory_use = MemoryUse::of_image(usage);
+        let block = lock(&context.heap).allocate(desc.name, requirements, Memory::Device, memory_use, false)?;
         // SAFETY: the memory belongs to `allocation` for as long as the block lives.
         let device_memory = unsafe { block.allocation.memory() };
         let offset = block.allocation.offset();

@@ -1,5 +1,6 @@
 //! Descriptor set layouts and pipeline layouts, each kind created once per device.
 
+use super::calls::Device;
 use super::error::GpuError;
 use super::interface::{Interface, SET_COUNT, Slot};
 use ash::vk;
@@ -27,7 +28,7 @@ impl Layouts {
     /// Set layouts and pipeline layout of an interface.
     pub(crate) fn of(
         &mut self,
-        device: &ash::Device,
+        device: &Device,
         name: &str,
         interface: &Interface,
     ) -> Result<([vk::DescriptorSetLayout; SET_COUNT], vk::PipelineLayout), GpuError> {
@@ -52,7 +53,7 @@ impl Layouts {
         Ok((sets, layout))
     }
 
-    fn set(&mut self, device: &ash::Device, name: &str, slots: &[Slot]) -> Result<vk::DescriptorSetLayout, GpuError> {
+    fn set(&mut self, device: &Device, name: &str, slots: &[Slot]) -> Result<vk::DescriptorSetLayout, GpuError> {
         let key: SetKey = slots.iter().map(|slot| (slot.binding, slot.name, slot.descriptor.as_raw())).collect();
         if let Some(layout) = self.sets.get(&key) {
             return Ok(*layout);
@@ -75,7 +76,7 @@ impl Layouts {
         Ok(layout)
     }
 
-    pub(crate) fn destroy(&mut self, device: &ash::Device) {
+    pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, layout) in self.pipelines.drain() {
             // SAFETY: pipelines and encoders hold the context, so none refers to it any more.
             unsafe { device.destroy_pipeline_layout(layout, None) };

@@ -268,7 +268,7 @@ impl<'e> RenderPass<'e> {
         let command_buffer = self.encoder.command_buffer;
         // SAFETY: all that the pipeline needs is bound, the indices among it; robust access bounds what they point to.
         unsafe { device.cmd_draw_indexed(command_buffer, index_count, instances, first_index, 0, first_instance) };
-        self.encoder.count(u64::from(instances), triangles(pipeline.topology, index_count));
+        self.encoder.count(instances.into(), index_count.into(), triangles(pipeline.topology, index_count));
     }
 
     /// Draws vertices in order.
@@ -277,7 +277,7 @@ impl<'e> RenderPass<'e> {
         let device = &self.encoder.gpu().context().device;
         // SAFETY: all that the pipeline needs is bound; robust access bounds vertices.
         unsafe { device.cmd_draw(self.encoder.command_buffer, vertices, instances, 0, 0) };
-        self.encoder.count(u64::from(instances), triangles(pipeline.topology, vertices));
+        self.encoder.count(instances.into(), vertices.into(), triangles(pipeline.topology, vertices));
     }
 
     /// `index_end` is the end of the indices that an indexed draw reads.
@@ -370,6 +370,6 @@ impl<'e> ComputePass<'e> {
         let device = &self.encoder.gpu().context().device;
         // SAFETY: all that the pipeline needs is bound; the counts are within the limits.
         unsafe { device.cmd_dispatch(self.encoder.command_buffer, x, y, z) };
-        self.encoder.count(0, 0);
+        self.encoder.count(0, 0, 0);
     }
 }

@@ -1,5 +1,6 @@
 //! Command pools with their queries, recycled between submissions, and the times that they yield.
 
+use super::calls::Device;
 use super::device::{Context, lock};
 use super::error::GpuError;
 use ash::vk;
@@ -47,10 +48,14 @@ pub struct PassTime {
     pub name: String,
     /// From the pass's barrier to its end, ms; `None` without timestamps.
     pub gpu_ms: Option<f64>,
+    /// From the start of the first pass to the start of this one, ms; `None` without timestamps.
+    pub gpu_start_ms: Option<f64>,
     /// Draws and dispatches.
     pub draws: u32,
     /// Instances of all draws.
     pub instances: u64,
+    /// Vertices of all draws and instances, as the indices name them: one that triangles share counts for each.
+    pub vertices: u64,
     /// Triangles of all draws and instances.
     pub triangles: u64,
     /// The driver's counts, where it has them.
@@ -74,13 +79,14 @@ pub(crate) struct PassRecord {
     pub(crate) name: String,
     pub(crate) draws: u32,
     pub(crate) instances: u64,
+    pub(crate) vertices: u64,
     pub(crate) triangles: u64,
 }
 
 impl PassRecord {
     pub(crate) fn without_times(self) -> PassTime {
-        let Self { name, draws, instances, triangles } = self;
-        PassTime { name, gpu_ms: None, draws, instances, triangles, statistics: None }
+        let Self { name, draws, instances, vertices, triangles } = self;
+        PassTime { name, gpu_ms: None, gpu_start_ms: None, draws, instances, vertices, triangles, statistics: None }
     }
 }
 
@@ -119,7 +125,7 @@ impl RawRecording {
         Ok(recording)
     }
 
-    pub(crate) fn destroy(self, device: &ash::Device) {
+    pub(crate) fn destroy(self, device: &Device) {
         for chunk in &self.chunks {
             // SAFETY: the submission that used it has finished.
             unsafe { device.destroy_query_pool(chunk.timestamps, None) };
@@ -217,7 +223,7 @@ impl Recording {
                 let query = (index % PASSES_PER_CHUNK as usize) as u32;
                 if let Some([start, end]) = self.ticks(chunk, query) {
                     pass.gpu_ms = Some(self.ms_between(start, end));
-                    first_tick = first_tick.or(Some(start));
+                    pass.gpu_start_ms = Some(self.ms_between(*first_tick.get_or_insert(start), start));
                     last_tick = Some(end);
                 }
                 pass.statistics = self.statistics(chunk, query);
@@ -271,7 +277,7 @@ fn ticks_between(start: u64, end: u64, bits: u32) -> u64 {
     end.wrapping_sub(start) & mask
 }
 
-fn reset(device: &ash::Device, chunk: &QueryChunk) {
+fn reset(device: &Device, chunk: &QueryChunk) {
     if chunk.timestamps != vk::QueryPool::null() {
         // SAFETY: host query reset is a required feature; no submission in flight uses the pool.
         unsafe { device.reset_query_pool(chunk.timestamps, 0, 2 * PASSES_PER_CHUNK) };

@@ -1,5 +1,6 @@
 //! Samplers, each kind created once per device.
 
+use super::calls::Device;
 use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
 use ash::vk;
@@ -56,7 +57,7 @@ type Key = [i32; 8];
 pub(crate) struct Samplers(HashMap<Key, vk::Sampler>);
 
 impl Samplers {
-    pub(crate) fn destroy(&mut self, device: &ash::Device) {
+    pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, sampler) in self.0.drain() {
             // SAFETY: bind groups hold the context, so none refers to it any more.
             unsafe { device.destroy_sampler(sampler, None) };

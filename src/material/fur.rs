@@ -62,6 +62,9 @@ crate::parameters! {
         force: Vec3 as Vector3 = Vec3::NEG_Y, (-1e3, 1e3), "", "Direction of a constant force, gravity by default.";
         force_strength: f32 as Number = 0.25, UNIT, "", "How far the force bends the strands, 1 = a right angle at the tip.";
         force_space: ForceSpace as OneOf<ForceSpace> = ForceSpace::World, UNBOUNDED, "", "The space of force: world or object.";
+        inertia: f32 as Number = 0.0, UNIT, "", "How far strands lag behind an animated surface and settle after it, 0 = not at all.";
+        stiffness: f32 as Number = 400.0, (1e-2, 1e8), "1/s^2", "How fast lagging strands spring back: the square of their angular frequency.";
+        damping: f32 as Number = 0.25, (0.0, 1e4), "", "How soon strands stop swaying, 1 = without ever swinging past their rest.";
         comb: Vec2 as Vector2 = Vec2::ZERO, (-1.0, 1.0), "", "Lie of the coat, 1 = flat on the skin: around the vertical of the rest pose, and up along the surface.";
         comb_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: RG is the local lie, (lie + 1) / 2; added to comb.";
         blend: Blend as OneOf<Blend> = Blend::Cutout, UNBOUNDED, "", "How layers meet the frame: cutout, coverage or blend.";

@@ -107,7 +107,7 @@ impl Coat {
     pub fn profile(&self, triangle: &Triangle, barycentric: DVec3, height: f64) -> (f64, f64) {
         let skin = self.skin(triangle, barycentric);
         let root = self.root(skin, self.lock(skin), height);
-        strand::field(root, skin.normal, self.radius, DVec3::ZERO)
+        strand::field(root, skin.normal, self.radius)
     }
 
     pub(super) fn skin(&self, triangle: &Triangle, barycentric: DVec3) -> Skin {
@@ -127,7 +127,9 @@ impl Coat {
     /// Root of the strand that passes over a place of the skin, if it belongs to that lock.
     pub(super) fn root(&self, skin: Skin, lock: Option<Lock>, height: f64) -> DVec3 {
         lock.map_or(skin.place, |Lock { middle, random }| {
-            lock::root_in(middle - skin.place, random, skin.place, skin.normal, height, self.clump, self.curl)
+            let to_middle = middle - skin.place;
+            let from_middle = to_middle.dot(skin.normal) * skin.normal - to_middle;
+            skin.place + lock::way_to_root(from_middle, random, skin.normal, height, self.clump, self.curl)
         })
     }
 

@@ -1,29 +1,46 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, deform, draws, tonemap};
+use super::pass::{Frame, Moving, deform, draws, sway, tonemap};
 use super::plan::{Draw, Pass};
+use super::targets::Targets;
 use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
+use std::borrow::Cow;
 
 /// Records all passes of `frame`.
-pub fn record(encoder: &mut Encoder, frame: &Frame) {
+pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, display: &tonemap::Display) {
+    record_motion(encoder, &frame.moving());
+    let lists = draw_lists(frame);
+    for (index, (pass, list)) in lists.iter().enumerate() {
+        record_draws(encoder, frame, targets, *pass, list, index + 1 == lists.len());
+    }
+    tonemap::record(encoder, frame, display);
+}
+
+/// The passes that draw the scene, in order, and what they draw.
+pub fn draw_lists<'a>(frame: &Frame<'a>) -> Vec<(Pass, Cow<'a, [Draw]>)> {
     let plan = &frame.shot.plan;
-    if plan.passes.contains(&Pass::Deform) {
-        deform::record(encoder, frame);
-    }
     let far_to_near = draws::far_to_near(&plan.transparent, frame);
-    let lists: [(Pass, &[Draw]); 3] =
-        [(Pass::Opaque, &plan.opaque), (Pass::Fur, &plan.fur), (Pass::Transparent, &far_to_near)];
-    let last = plan.passes.iter().rfind(|pass| **pass != Pass::Tonemap);
-    for (pass, list) in lists.into_iter().filter(|(pass, _)| plan.passes.contains(pass)) {
-        record_draws(encoder, frame, pass, list, last == Some(&pass));
+    let lists = [
+        (Pass::Opaque, Cow::from(&plan.opaque)),
+        (Pass::Fur, Cow::from(&plan.fur)),
+        (Pass::Transparent, Cow::from(far_to_near)),
+    ];
+    lists.into_iter().filter(|(pass, _)| plan.passes.contains(pass)).collect()
+}
+
+/// Records what moves vertices, without anything that is drawn.
+pub fn record_motion(encoder: &mut Encoder, moving: &Moving) {
+    if !moving.shot.plan.deforms.is_empty() {
+        deform::record(encoder, moving);
     }
-    tonemap::record(encoder, frame);
+    if !moving.shot.plan.sways.is_empty() {
+        sway::record(encoder, moving);
+    }
 }
 
 /// The first pass clears, the last one resolves; those between keep what there is.
-fn record_draws(encoder: &mut Encoder, frame: &Frame, pass: Pass, list: &[Draw], is_last: bool) {
-    let targets = frame.targets;
+fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: Pass, list: &[Draw], is_last: bool) {
     let is_first = pass == Pass::Opaque;
     let resolve = targets.resolved.as_ref().filter(|_| is_last);
     let color = [ColorTarget {

@@ -1,12 +1,12 @@
-//! What changes every frame: camera, lights, places, poses, coats; and the bind groups over it.
+//! What changes every frame: camera, lights, places, coats; and the bind groups over it.
 
 use super::Shot;
+use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
-use super::plan::{Draw, DrawKind, Plan, fur_maps};
+use super::plan::{Draw, DrawKind, Plan};
 use super::resources::Resources;
-use super::stream::Stream;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
 use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
@@ -14,24 +14,21 @@ use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec3};
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
+
+/// Descriptor set of camera and lights.
+pub const FRAME_SET: u32 = 0;
+/// Descriptor set of where objects stand.
+pub const OBJECT_SET: u32 = 2;
 
 /// What one frame reads and no other.
 pub struct FrameData {
     frame: Buffer,
     lights: Option<Buffer>,
     objects: Buffer,
-    /// Moved streams of (instance, stream).
-    pub deformed: HashMap<(usize, Stream), Buffer>,
-    /// Bind groups of the deform dispatches, in the plan's order.
-    pub deform_groups: Vec<BindGroup>,
-    /// Frame and object bind groups by pipeline.
-    pub shared_groups: HashMap<usize, (BindGroup, BindGroup)>,
-    /// The tone-mapping pipeline for this frame's target.
-    pub tonemap: PipelineSpec,
-    /// Its bind group.
-    pub tonemap_group: BindGroup,
+    /// Bind groups of all objects by set and names: most pipelines have the same.
+    shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -41,25 +38,14 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    pub fn new(
-        gpu: &Gpu,
-        resources: &Resources,
-        scene: &Scene,
-        shot: &Shot,
-        hdr: &Image,
-        tonemap: PipelineSpec,
-    ) -> Result<Self, GpuError> {
-        let Shot { plan, pose, camera, lighting } = shot;
+    pub fn new(gpu: &Gpu, resources: &Resources, scene: &Scene, shot: &Shot) -> Result<Self, GpuError> {
+        let Shot { plan, camera, lighting, .. } = shot;
         let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
         let frame = frame_uniforms(camera, lighting);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
-        let tonemap_group =
-            gpu.bind_group(resources.pipeline(&tonemap), 0, "tonemap", &[("hdr", Resource::Texture(hdr))])?;
         let mut data = Self {
-            tonemap,
-            tonemap_group,
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
             lights: if lit {
                 Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)
@@ -67,12 +53,9 @@ impl FrameData {
                 None
             },
             objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
-            deformed: HashMap::new(),
-            deform_groups: Vec::new(),
             shared_groups: HashMap::new(),
             coat_groups: HashMap::new(),
         };
-        data.bind_deforms(gpu, resources, scene, plan, pose)?;
         data.bind_shared(gpu, resources, plan)?;
         for draw in plan.fur.iter().chain(&plan.transparent) {
             data.bind_coat(gpu, resources, scene, shot, draw)?;
@@ -81,17 +64,24 @@ impl FrameData {
     }
 
     fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, plan: &Plan) -> Result<(), GpuError> {
-        for (index, spec) in plan.pipelines.iter().enumerate() {
-            let pipeline = resources.pipeline(spec);
-            let mut offered = vec![("FrameBlock", Resource::Buffer(&self.frame))];
-            if let Some(lights) = &self.lights {
-                offered.push(("LightList", Resource::Buffer(lights)));
+        let mut offered =
+            vec![("FrameBlock", Resource::Buffer(&self.frame)), ("ObjectList", Resource::Buffer(&self.objects))];
+        if let Some(lights) = &self.lights {
+            offered.push(("LightList", Resource::Buffer(lights)));
+        }
+        for spec in &plan.pipelines {
+            for (set, name) in [(FRAME_SET, "frame"), (OBJECT_SET, "objects")] {
+                if let Entry::Vacant(new) = self.shared_groups.entry((set, spec.bindings_of(set))) {
+                    new.insert(gpu.bind_group(resources.pipeline(spec), set, name, &offered)?);
+                }
             }
-            let frame = gpu.bind_group(pipeline, 0, "frame", &offered)?;
-            let objects = gpu.bind_group(pipeline, 2, "objects", &[("ObjectList", Resource::Buffer(&self.objects))])?;
-            self.shared_groups.insert(index, (frame, objects));
         }
         Ok(())
+    }
+
+    /// The bind group of a set, [`FRAME_SET`] or [`OBJECT_SET`], that all objects share.
+    pub fn shared_group(&self, set: u32, spec: &PipelineSpec) -> &BindGroup {
+        &self.shared_groups[&(set, spec.bindings_of(set))]
     }
 
     fn bind_coat(
@@ -113,55 +103,15 @@ impl FrameData {
         self.coat_groups.insert((draw.instance, draw.pipeline), group);
         Ok(())
     }
-
-    fn bind_deforms(
-        &mut self,
-        gpu: &Gpu,
-        resources: &Resources,
-        scene: &Scene,
-        plan: &Plan,
-        pose: &Pose,
-    ) -> Result<(), GpuError> {
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let mut joints: HashMap<usize, Buffer> = HashMap::new();
-        for deform in &plan.deforms {
-            let instance = &plan.instances[deform.instance];
-            let index = (instance.mesh, instance.primitive);
-            let count = scene.asset().meshes[index.0].primitives[index.1].vertices.positions.len();
-            let bytes = (count as u64 * u64::from(deform.stream.stride())).max(4);
-            let target =
-                gpu.buffer("deformed stream", bytes, storage | vk::BufferUsageFlags::VERTEX_BUFFER, Memory::Device)?;
-            let mut offered = vec![
-                ("SourceStream", Resource::Buffer(&resources.streams[&(index, deform.stream)])),
-                ("TargetStream", Resource::Buffer(&target)),
-            ];
-            if let (Some(skin), Some((indices, weights))) = (instance.skin, resources.influences.get(&index)) {
-                let buffer = match joints.entry(skin) {
-                    Entry::Occupied(known) => known.into_mut(),
-                    Entry::Vacant(new) => {
-                        let matrices = joint_matrices(scene.asset(), skin, pose);
-                        new.insert(filled(gpu, "joints", storage, &matrices)?)
-                    }
-                };
-                offered.push(("JointList", Resource::Buffer(buffer)));
-                offered.push(("InfluenceList", Resource::Buffer(indices)));
-                offered.push(("InfluenceWeightList", Resource::Buffer(weights)));
-            }
-            let weights = filled(gpu, "morph weights", storage, &instance.morph_weights)?;
-            if let Some(deltas) = resources.morph_deltas.get(&(index, deform.stream)) {
-                offered.push(("MorphDeltas", Resource::Buffer(deltas)));
-                offered.push(("MorphWeights", Resource::Buffer(&weights)));
-            }
-            let pipeline = resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]);
-            self.deform_groups.push(gpu.bind_group(pipeline, 0, "deform", &offered)?);
-            self.deformed.insert((deform.instance, deform.stream), target);
-        }
-        Ok(())
-    }
 }
 
 /// A host-visible buffer with these values; one zero word when there are none, since Vulkan has no empty buffers.
-fn filled<T: NoUninit>(gpu: &Gpu, name: &str, usage: vk::BufferUsageFlags, values: &[T]) -> Result<Buffer, GpuError> {
+pub(super) fn filled<T: NoUninit>(
+    gpu: &Gpu,
+    name: &str,
+    usage: vk::BufferUsageFlags,
+    values: &[T],
+) -> Result<Buffer, GpuError> {
     let bytes = (std::mem::size_of_val(values)).max(size_of::<T>()) as u64;
     let buffer = gpu.buffer(name, bytes, usage, Memory::Upload)?;
     buffer.write(0, values)?;

@@ -20,6 +20,8 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
         Stream::Color => {
             vertices.colors.iter().flat_map(|color| bytemuck::cast::<_, [u8; 16]>(color.to_array())).collect()
         }
+        // Never in a file: the sway pass makes it.
+        Stream::Sway => Vec::new(),
         Stream::ShellDirection => bytemuck::cast_slice(&shell_directions_of_mesh(mesh)[primitive]).to_vec(),
         Stream::ShellSide => {
             let directions = &shell_directions_of_mesh(mesh)[primitive];
@@ -28,6 +30,15 @@ pub fn stream_bytes(mesh: &Mesh, primitive: usize, stream: Stream) -> Vec<u8> {
             directions.iter().flat_map(|direction| bytemuck::cast::<_, [u8; 12]>(side(direction).to_array())).collect()
         }
     }
+}
+
+/// The indices of one copy of a primitive's vertices among several, as bytes.
+pub fn index_bytes(primitive: &Primitive, copy: u32) -> Cow<'_, [u8]> {
+    if copy == 0 {
+        return Cow::Borrowed(bytemuck::cast_slice(&primitive.indices));
+    }
+    let first = copy * primitive.vertices.positions.len() as u32;
+    Cow::Owned(primitive.indices.iter().flat_map(|index| (first + index).to_ne_bytes()).collect())
 }
 
 /// Morph offsets of a stream, `[target][vertex]` of three floats; zeros where a target leaves it alone.

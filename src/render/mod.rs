@@ -3,10 +3,16 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod count;
+mod file;
 mod frame;
 mod frame_data;
 mod geometry;
+mod left_out;
+mod map;
 mod material;
+mod memory;
+mod motion;
 mod options;
 mod pass;
 mod picture;
@@ -15,28 +21,39 @@ mod plan;
 mod report;
 mod resources;
 mod stream;
+mod sway;
 mod targets;
 mod texture;
 
+pub use count::PassFragments;
+pub use file::write_file;
+pub use left_out::LeftOut;
+pub use map::StandIn;
+pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
 };
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
-pub use plan::{Deform, Draw, DrawKind, LeftOut, Pass, Plan, SurfaceUse, TextureUse};
-pub use report::{CoatReport, FrameReport};
+pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
+pub use report::{CoatReport, CpuPhases, FrameReport};
 pub use stream::Stream;
+pub use targets::Attachment;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
 use frame_data::FrameData;
 use glam::Vec4;
-use pass::Frame;
+use memory::PICTURE_NAME;
+use motion::Motion;
+use pass::tonemap::Display;
+use pass::{Frame, Moving};
 use resources::Resources;
 use std::path::PathBuf;
 use std::time::Instant;
+use sway::SwayMemory;
 use targets::Targets;
 
 /// Longest wait for one frame: a software device may take long, a lost one must not hang the caller.
@@ -113,6 +130,7 @@ impl Shot {
         };
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
+        options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self {
@@ -124,6 +142,13 @@ impl Shot {
     }
 }
 
+/// What one frame reads, made and not yet recorded.
+struct Prepared {
+    motion: Motion,
+    data: FrameData,
+    tonemap: PipelineSpec,
+}
+
 /// Renders scenes on one device. What a scene keeps there stays until another scene is rendered.
 pub struct Renderer {
     gpu: Gpu,
@@ -132,6 +157,8 @@ pub struct Renderer {
     picture: Option<Image>,
     /// Which scene the resources belong to.
     scene: Option<u64>,
+    /// Strands that lag behind.
+    sway: SwayMemory,
 }
 
 impl Renderer {
@@ -146,9 +173,10 @@ impl Renderer {
     /// On a device that is there already, such as the host's ([`Gpu::from_host`]).
     ///
     /// # Errors
-    /// When the device is out of memory.
+    /// None: nothing is made before a plan asks for it.
     pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
-        Ok(Self { resources: Resources::new(&gpu)?, gpu, targets: None, picture: None, scene: None })
+        let resources = Resources::new(&gpu);
+        Ok(Self { resources, gpu, targets: None, picture: None, scene: None, sway: SwayMemory::default() })
     }
 
     /// The device.
@@ -182,13 +210,20 @@ impl Renderer {
         options: &FrameOptions,
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
-        let start = Instant::now();
+        let (mut cpu, mut clock, before) = (CpuPhases::default(), Instant::now(), self.gpu.calls());
         let shot = Shot::new(scene, options)?;
+        cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
         let mut encoder = self.gpu.encoder("frame")?;
-        self.record_shot(&mut encoder, scene, &shot, options, &target)?;
-        let times = encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
-        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        cpu.prepare_ms = lap_ms(&mut clock);
+        self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
+        cpu.record_ms = lap_ms(&mut clock);
+        let submission = encoder.submit()?;
+        cpu.submit_ms = lap_ms(&mut clock);
+        let times = submission.wait(FRAME_TIMEOUT_MS)?;
+        cpu.wait_ms = lap_ms(&mut clock);
+        let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
         if keep_radiance && let Some(targets) = &self.targets {
@@ -205,7 +240,7 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, frame_ms, pipelines_ms, self.gpu.memory());
+        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
         Ok((picture, report))
     }
 
@@ -222,38 +257,89 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let shot = Shot::new(scene, options)?;
-        self.record_shot(encoder, scene, &shot, options, target)
+        let prepared = self.prepare(scene, &shot, options, target.format())?;
+        self.record_prepared(encoder, scene, &shot, options, prepared, target)
     }
 
-    fn record_shot(
+    /// Moves strands that lag behind on to `options.time_s` without drawing anything, on a submission of its own that is
+    /// waited for; where nothing sways it does nothing.
+    ///
+    /// A frame or step of the same clip follows the one before where its time is later by at most 0.1 s, and holds still
+    /// where it is the same; at any other time strands start from rest. Shorter steps follow the motion more closely.
+    ///
+    /// # Errors
+    /// Those of [`Shot::new`] and of the device.
+    pub fn advance(&mut self, scene: &Scene, options: &FrameOptions) -> Result<(), RenderError> {
+        let mut shot = Shot::new(scene, options)?;
+        let Plan { deforms, sways, .. } = &mut shot.plan;
+        if sways.is_empty() {
+            return Ok(());
+        }
+        // Strands only ask where their roots are.
+        deforms.retain(|deform| {
+            deform.stream == Stream::Position && sways.iter().any(|sway| sway.instance == deform.instance)
+        });
+        let motion = self.prepare_motion(scene, &shot, options)?;
+        let mut encoder = self.gpu.encoder("advance")?;
+        let moving = Moving { scene, shot: &shot, resources: &self.resources, motion: &motion };
+        frame::record_motion(&mut encoder, &moving);
+        encoder.submit()?.wait(FRAME_TIMEOUT_MS)?;
+        self.keep(scene, options);
+        Ok(())
+    }
+
+    /// Makes what the shot needs and is not there yet.
+    fn prepare(
+        &mut self,
+        scene: &Scene,
+        shot: &Shot,
+        options: &FrameOptions,
+        target_format: vk::Format,
+    ) -> Result<Prepared, RenderError> {
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
+            // The old ones go first: two sets need not fit at once.
+            self.targets = None;
+        }
+        let motion = self.prepare_motion(scene, shot, options)?;
+        if self.targets.is_none() {
+            self.targets = Some(Targets::new(&self.gpu, options)?);
+        }
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
+        self.resources.make_pipeline(&tonemap)?;
+        let data = FrameData::new(&self.gpu, &self.resources, scene, shot)?;
+        Ok(Prepared { motion, data, tonemap })
+    }
+
+    /// Makes what the plan lists, and what moves in it. Until [`Self::keep`], nothing counts as made: a frame that failed
+    /// half-way may have left streams and images without their contents.
+    fn prepare_motion(&mut self, scene: &Scene, shot: &Shot, options: &FrameOptions) -> Result<Motion, RenderError> {
+        if self.scene.take() != Some(scene.id()) {
+            self.resources.forget_scene();
+        }
+        self.resources.prepare(scene, &shot.plan)?;
+        Ok(Motion::new(&self.gpu, &self.resources, scene, shot, options, &mut self.sway)?)
+    }
+
+    /// The frame's commands are complete.
+    fn keep(&mut self, scene: &Scene, options: &FrameOptions) {
+        self.scene = Some(scene.id());
+        self.sway.keep(scene, options);
+    }
+
+    fn record_prepared(
         &mut self,
         encoder: &mut Encoder,
         scene: &Scene,
         shot: &Shot,
         options: &FrameOptions,
+        Prepared { motion, data, tonemap }: Prepared,
         target: &Image,
     ) -> Result<(), RenderError> {
-        // Named again only when all is made: a frame that failed half-way may have left streams and images without their
-        // contents, and nothing of it is kept.
-        if self.scene.take() != Some(scene.id()) {
-            self.resources.forget_scene();
-        }
-        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
-            // The old ones go first: two sets need not fit at once.
-            self.targets = None;
-        }
-        let targets = match self.targets.take() {
-            Some(targets) => targets,
-            None => Targets::new(&self.gpu, options)?,
-        };
-        let targets = self.targets.insert(targets);
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target.format());
-        self.resources.prepare(scene, &shot.plan)?;
-        self.resources.make_pipeline(&tonemap)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, shot, targets.hdr(), tonemap)?;
-        let frame = Frame { scene, shot, options, resources: &self.resources, data: &data, targets, target };
-        frame::record(encoder, &frame);
-        self.scene = Some(scene.id());
+        let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
+        let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data };
+        frame::record(encoder, &frame, targets, &display);
+        self.keep(scene, options);
         Ok(())
     }
 
@@ -263,14 +349,22 @@ impl Renderer {
             return Ok(picture);
         }
         Ok(self.gpu.image(&ImageDesc {
-            name: "picture",
+            name: PICTURE_NAME,
             size,
-            format: vk::Format::R8G8B8A8_UNORM,
+            format: PICTURE_FORMAT,
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
         })?)
     }
+}
+
+/// Milliseconds since `clock`, which starts anew.
+fn lap_ms(clock: &mut Instant) -> f64 {
+    let now = Instant::now();
+    let ms = now.duration_since(*clock).as_secs_f64() * 1e3;
+    *clock = now;
+    ms
 }
 
 /// HDR texels as floats.

@@ -1,8 +1,9 @@
 //! What one frame is asked to be.
 
 use super::RenderError;
-use crate::asset::Asset;
-use crate::scene::CameraChoice;
+use crate::asset::{Asset, Primitive, Topology};
+use crate::material::{Fur, Material};
+use crate::scene::{CameraChoice, Instance, Scene};
 use glam::Vec3;
 
 /// Most shells of a coat.
@@ -19,7 +20,8 @@ pub struct FrameOptions {
     pub scene: Option<usize>,
     /// Index of the animation clip; `None` = rest pose.
     pub animation: Option<usize>,
-    /// Seconds into the clip; beyond its end it starts again.
+    /// Seconds into the clip; beyond its end it starts again. Coats with inertia sway where frames follow each other closely
+    /// ([`Renderer::advance`](super::Renderer::advance)).
     pub time_s: f32,
     /// Index of the KHR_materials_variants variant.
     pub variant: Option<usize>,
@@ -40,6 +42,9 @@ pub struct FrameOptions {
     pub shells: Shells,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
+    /// Draws the frame with everything that a plan can leave out: every pass, the largest permutations with texels that
+    /// change nothing, all vertex streams. The same picture; what leaving out saves is the difference.
+    pub everything: bool,
 }
 
 impl Default for FrameOptions {
@@ -59,6 +64,7 @@ impl Default for FrameOptions {
             layer_scale: 1.0,
             shells: Shells::default(),
             msaa: 4,
+            everything: false,
         }
     }
 }
@@ -67,6 +73,12 @@ impl FrameOptions {
     /// Shells of a coat whose material says `layers`.
     pub fn layers_of_coat(&self, layers: u32) -> u32 {
         self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
+    /// Whether strands of this coat lag behind: they have inertia, and something can move them.
+    pub(super) fn sways(&self, fur: &Fur) -> bool {
+        let moves = fur.inertia > 0.0 && self.animation.is_some();
+        (moves || self.everything) && self.shells.submission != ShellSubmission::Duplicated
     }
 
     /// Says which option is out of its range or names what the file lacks.
@@ -100,6 +112,36 @@ impl FrameOptions {
         ] {
             if let Some(index) = index.filter(|index| *index >= count) {
                 return wrong(option, format!("there is no {option} {index}; the file has {count}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Says which coat cannot have its vertices once a shell.
+    pub(super) fn check_coats(&self, scene: &Scene, instances: &[Instance]) -> Result<(), RenderError> {
+        if self.shells.submission != ShellSubmission::Duplicated {
+            return Ok(());
+        }
+        for instance in instances {
+            let Material { fur: Some(fur), name, .. } = &scene.materials()[instance.material] else { continue };
+            let Primitive { topology, vertices, indices, morph_targets, .. } =
+                &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
+            if *topology != Topology::Triangles {
+                continue;
+            }
+            let wrong = |problem: &str| {
+                let problem = format!("the coat '{name}' {problem}; submit its shells instanced or as draws");
+                Err(RenderError::Option { option: "duplicated shells", problem })
+            };
+            if instance.skin.is_some() || !morph_targets.is_empty() {
+                return wrong("is skinned or morphed, which moves one copy of its vertices");
+            }
+            if fur.inertia > 0.0 && self.animation.is_some() {
+                return wrong("has inertia, which moves one copy of its vertices");
+            }
+            let layers = self.layers_of_coat(fur.layers) as usize;
+            if vertices.positions.len().max(indices.len()).saturating_mul(layers) > u32::MAX as usize {
+                return wrong("has more vertices or indices in all shells than 32 bits can count");
             }
         }
         Ok(())

@@ -1,8 +1,7 @@
 //! A rendered picture on the host, and its files.
 
-use super::RenderError;
+use super::{RenderError, write_file};
 use glam::{Vec3, Vec4};
-use std::io::Write;
 use std::path::Path;
 
 /// A rendered picture.
@@ -61,18 +60,7 @@ impl Picture {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), RenderError> {
         let path = path.as_ref();
         let bytes = self.encode(PictureFormat::of(path)?)?;
-        let write = || -> std::io::Result<()> {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            let mut builder = tempfile::Builder::new();
-            // A temporary file is private; a picture is as readable as the user's other files (less the umask).
-            #[cfg(unix)]
-            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-            let mut file = builder.tempfile_in(folder)?;
-            file.write_all(&bytes)?;
-            file.persist(path)?;
-            Ok(())
-        };
-        write().map_err(|source| RenderError::Write { path: path.to_owned(), source })
+        write_file(path, &bytes)
     }
 
     fn encode_exr(&self, bytes: &mut Vec<u8>) -> Result<(), RenderError> {

@@ -1,6 +1,7 @@
 //! Which pipeline a draw needs: shader permutations, constants and fixed state, decided before the device is
 //! asked. Two draws that need the same are equal here.
 
+use super::map::{Map, fur_maps, surface_maps};
 use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap};
 use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
@@ -8,6 +9,10 @@ use crate::material::{AlphaMode, Blend, Fur, Shape, Standard};
 use crate::shader::{Shader, table};
 use ash::vk;
 use glam::Vec2;
+use std::collections::BTreeSet;
+
+/// Descriptor sets that every device has (Vulkan 1.3, "Required Limits", maxBoundDescriptorSets).
+const SET_COUNT: u32 = 4;
 
 /// Depth is 32-bit float, reversed: 1 at the near plane.
 pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
@@ -87,18 +92,26 @@ impl PipelineSpec {
         let unlit = standard.unlit || vertices.normals.is_empty();
         let has_uv = !vertices.uv_sets.is_empty();
         let has_tangent = !vertices.tangents.is_empty();
-        let base = has_uv && standard.base_color_texture.is_some();
-        let metallic_roughness = has_uv && !unlit && standard.metallic_roughness_texture.is_some();
-        let occlusion = has_uv && !unlit && standard.occlusion_texture.is_some();
-        let emissive = has_uv && !unlit && standard.emissive_texture.is_some();
-        let tangent_space = has_uv && !unlit && has_tangent;
-        let normal = tangent_space && standard.normal_texture.is_some();
-        let detail_albedo = tangent_space && standard.detail_albedo_texture.is_some();
-        let detail_normal = tangent_space && standard.detail_normal_texture.is_some();
-        let detail = detail_albedo || detail_normal;
-        let tangent = normal || detail;
-        let uv = base || metallic_roughness || occlusion || emissive || tangent;
-        let color = !vertices.colors.is_empty();
+        let maps = surface_maps(standard);
+        let is_shown = |map: &Map| match map.name {
+            "base_color" => has_uv,
+            "normal" | "detail_albedo" | "detail_normal" => has_uv && has_tangent && !unlit,
+            _ => has_uv && !unlit,
+        };
+        let needs_light = |map: &Map| unlit && map.name != "base_color";
+        // A map that the mesh has no coordinates for must stay off: such a material is drawn as it would be anyway.
+        let everything =
+            options.everything && maps.iter().all(|map| map.texture.is_none() || is_shown(map) || needs_light(map));
+        let is_sampled = |map: &&Map| match everything {
+            true => !needs_light(map),
+            false => map.texture.is_some() && is_shown(map),
+        };
+        let sampled: Vec<&Map> = maps.iter().filter(is_sampled).collect();
+        let has = |name: &str| sampled.iter().any(|map| map.name == name);
+        let detail = has("detail_albedo") || has("detail_normal");
+        let tangent = detail || has("normal");
+        let uv = !sampled.is_empty();
+        let color = everything || !vertices.colors.is_empty();
         let blend = standard.alpha_mode == AlphaMode::Blend;
 
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("COLOR", color)];
@@ -108,19 +121,7 @@ impl PipelineSpec {
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
         }
-        for (name, holds) in [
-            ("HAS_BASE_COLOR_MAP", base),
-            ("HAS_METALLIC_ROUGHNESS_MAP", metallic_roughness),
-            ("HAS_OCCLUSION_MAP", occlusion),
-            ("HAS_EMISSIVE_MAP", emissive),
-            ("HAS_NORMAL_MAP", normal),
-            ("HAS_DETAIL_ALBEDO_MAP", detail_albedo),
-            ("HAS_DETAIL_NORMAL_MAP", detail_normal),
-        ] {
-            if holds {
-                constants.push((name, 1));
-            }
-        }
+        constants.extend(sampled.iter().map(|map| (map.constant, 1)));
         Self {
             vertex: permutation("standard.vert", &vertex_defines),
             fragment: permutation("standard.frag", &fragment_defines),
@@ -137,16 +138,15 @@ impl PipelineSpec {
     pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, options: &FrameOptions) -> Self {
         let Shells { sampling, alpha, submission, order } = options.shells;
         let blend = fur.blend == Blend::Blend || order == ShellOrder::Blended;
-        let maps = [
-            ("HAS_HEIGHT_MAP", fur.height_map.is_some()),
-            ("HAS_DISTRIBUTION_MAP", fur.distribution_map.is_some()),
-            ("HAS_BASE_COLOR_MAP", fur.color_over(standard).1.is_some()),
-            ("HAS_SPOT_MAP", fur.spot_map.is_some()),
-            ("HAS_COMB_MAP", fur.comb_map.is_some()),
-        ];
-        let has_maps = maps.iter().any(|(_, has)| *has);
-        let color = !primitive.vertices.colors.is_empty();
-        let combed = fur.comb != Vec2::ZERO || fur.comb_map.is_some();
+        let all_maps = fur_maps(fur, standard);
+        // A distribution map is another way to place strands, so nothing can stand in for it.
+        let is_sampled =
+            |map: &&Map| map.texture.is_some() || options.everything && map.constant != "HAS_DISTRIBUTION_MAP";
+        let maps: Vec<&Map> = all_maps.iter().filter(is_sampled).collect();
+        let has_maps = !maps.is_empty();
+        let color = options.everything || !primitive.vertices.colors.is_empty();
+        let combed = options.everything || fur.comb != Vec2::ZERO || fur.comb_map.is_some();
+        let vertex_defines = [("MAPS", has_maps), ("COMB", combed), ("SWAY", options.sways(fur)), ("COLOR", color)];
         let mut constants = vec![("SAMPLE_COUNT", options.msaa)];
         let switches = [
             ("INNER_FIRST", blend || order == ShellOrder::InnerFirst),
@@ -156,11 +156,12 @@ impl PipelineSpec {
             ("HAS_LOCKS", fur.clump > 0.0 || fur.curl > 0.0),
             ("PROJECT_UV", has_maps && primitive.vertices.uv_sets.is_empty()),
         ];
-        constants.extend(switches.iter().chain(&maps).filter(|(_, holds)| *holds).map(|(name, _)| (*name, 1)));
+        constants.extend(switches.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| (name, 1)));
+        constants.extend(maps.iter().map(|map| (map.constant, 1)));
         let choices = [("SAMPLING", sampling as u32), ("ALPHA", alpha as u32), ("SHELL_SOURCE", submission as u32)];
         constants.extend(choices.into_iter().filter(|(_, choice)| *choice != 0));
         Self {
-            vertex: permutation("fur.vert", &[("MAPS", has_maps), ("COMB", combed), ("COLOR", color)]),
+            vertex: permutation("fur.vert", &vertex_defines),
             fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color)]),
             constants,
             topology: Topology::Triangles,
@@ -168,6 +169,29 @@ impl PipelineSpec {
             depth: if blend { DepthUse::Test } else { DepthUse::TestAndWrite },
             samples: options.msaa,
             color_format: options.hdr_format.vulkan(),
+        }
+    }
+
+    /// Format of the counting pipelines' target, which nobody reads: Vulkan wants one where samples matter.
+    pub const COUNTING_FORMAT: vk::Format = vk::Format::R8_UNORM;
+
+    /// The pipeline that counts the fragments of this one of a surface or coat instead of shading them. It keeps what
+    /// decides where they are and how much of them survives, and tests depth by itself.
+    pub fn counting(&self) -> Self {
+        let (file, defines) = self.fragment.split_once('+').unwrap_or((&self.fragment, ""));
+        // The colours of vertices reach a coat's length, and no further.
+        let kept: &[&str] = if file == "fur.frag" { &["MAPS"] } else { &["UV", "COLOR"] };
+        let kept = kept.iter().map(|define| (*define, defines.split('+').any(|given| given == *define)));
+        let fragment = permutation(file, &[("COUNT", true)].into_iter().chain(kept).collect::<Vec<_>>());
+        let stages = [shader(&self.vertex), shader(&fragment)];
+        let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
+        Self {
+            vertex: self.vertex.clone(),
+            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().collect(),
+            fragment,
+            depth: DepthUse::None,
+            color_format: Self::COUNTING_FORMAT,
+            ..*self
         }
     }
 
@@ -189,10 +213,30 @@ impl PipelineSpec {
         }
     }
 
-    /// Whether its shaders sample the map that they call `<name>_map`.
-    pub fn samples_map(&self, name: &str) -> bool {
-        let constant = format!("HAS_{}_MAP", name.to_uppercase());
-        self.constants.iter().any(|(name, value)| *name == constant && *value != 0)
+    /// Whether its shaders sample the map.
+    pub fn samples_map(&self, map: &Map) -> bool {
+        self.constants.iter().any(|(name, value)| *name == map.constant && *value != 0)
+    }
+
+    /// Whether its shaders have the map's bindings, sampled or not.
+    pub fn binds_map(&self, map: &Map) -> bool {
+        self.bindings().contains(format!("{}_map", map.name).as_str())
+    }
+
+    /// Names of its descriptors.
+    pub fn bindings(&self) -> BTreeSet<&'static str> {
+        (0..SET_COUNT).flat_map(|set| self.bindings_of(set)).collect()
+    }
+
+    /// Names of the descriptors of one set. Pipelines that have the same can share a bind group.
+    pub fn bindings_of(&self, set: u32) -> BTreeSet<&'static str> {
+        let bindings = [&self.vertex, &self.fragment].map(|name| shader(name).bindings);
+        bindings.into_iter().flatten().filter(|binding| binding.set == set).map(|binding| binding.name).collect()
+    }
+
+    /// Names of its vertex inputs.
+    pub fn inputs(&self) -> BTreeSet<&'static str> {
+        shader(&self.vertex).inputs.iter().map(|input| input.name).collect()
     }
 
     /// Short name for labels and reports: the fragment shader's permutation.
@@ -237,6 +281,11 @@ impl ComputeSpec {
             shader: permutation("deform.comp", &[("SKIN", skin), ("MORPH", morph)]),
             constants: vec![("STREAM", stream)],
         }
+    }
+
+    /// The pipeline that lets strands lag behind their roots.
+    pub fn sway() -> Self {
+        Self { shader: "sway.comp".to_owned(), constants: Vec::new() }
     }
 
     /// Makes it.

@@ -4,11 +4,14 @@
 //! The plan is plain data made from scene and options alone, so it can be printed (`vair inspect`) and tested
 //! without a GPU; the resources make exactly what it lists and nothing else.
 
-use super::options::FrameOptions;
+use super::left_out::{LeftOut, left_out};
+use super::map::{Map, StandIn, fur_maps, surface_maps};
+use super::options::{FrameOptions, ShellSubmission};
 use super::pipeline::{ComputeSpec, PipelineSpec, shader};
 use super::stream::{Stream, inputs};
-use crate::asset::{Asset, Primitive, TextureRef, Topology};
-use crate::material::{Fur, Standard};
+use super::targets::Attachment;
+use crate::asset::{Asset, Primitive, Sampler, Topology};
+use crate::material::{AlphaMode, Fur, Standard};
 use crate::scene::{Instance, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -66,11 +69,22 @@ pub struct Deform {
     pub pipeline: usize,
 }
 
+/// A coat of one instance that the sway pass moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sway {
+    /// Index into [`Plan::instances`].
+    pub instance: usize,
+    /// Index into [`Plan::compute_pipelines`].
+    pub pipeline: usize,
+}
+
 /// A pass of the frame, in the order in which they run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Pass {
     /// Skinning and morphing.
     Deform,
+    /// Strands that lag behind their roots.
+    Sway,
     /// Opaque and masked surfaces; always there, since it clears the targets.
     Opaque,
     /// Shells.
@@ -82,10 +96,14 @@ pub enum Pass {
 }
 
 impl Pass {
+    /// All, in their order.
+    pub const ALL: [Self; 6] = [Self::Deform, Self::Sway, Self::Opaque, Self::Fur, Self::Transparent, Self::Tonemap];
+
     /// Name in labels, timings and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Deform => "deform",
+            Self::Sway => "sway",
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
@@ -94,20 +112,13 @@ impl Pass {
     }
 }
 
-/// Something that a frame could have and this one has not.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LeftOut {
-    /// What.
-    pub what: String,
-    /// Why.
-    pub why: String,
-}
-
 /// What one frame needs.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     /// Passes in order.
     pub passes: Vec<Pass>,
+    /// Images to draw into, beside the picture itself.
+    pub attachments: Vec<Attachment>,
     /// What stands in the scene, in the planned pose.
     pub instances: Vec<Instance>,
     /// Graphics pipelines, each once.
@@ -116,6 +127,8 @@ pub struct Plan {
     pub compute_pipelines: Vec<ComputeSpec>,
     /// Streams to move.
     pub deforms: Vec<Deform>,
+    /// Coats whose strands lag behind.
+    pub sways: Vec<Sway>,
     /// Draws of the opaque pass.
     pub opaque: Vec<Draw>,
     /// Draws of the fur pass.
@@ -124,8 +137,16 @@ pub struct Plan {
     pub transparent: Vec<Draw>,
     /// Vertex streams to upload, by (mesh, primitive).
     pub streams: BTreeMap<(usize, usize), BTreeSet<Stream>>,
+    /// Primitives, by (mesh, primitive), whose vertices and indices are uploaded once a shell, and how often that is.
+    pub copies: BTreeMap<(usize, usize), u32>,
+    /// A pipeline reads a stream that its primitive has not: one value stands in for all vertices.
+    pub has_absent_streams: bool,
     /// Images to upload.
     pub textures: BTreeSet<TextureUse>,
+    /// Texels bound where a pipeline has a map that the material has not.
+    pub stand_ins: BTreeSet<StandIn>,
+    /// Samplers of the textures, each once.
+    pub samplers: Vec<Sampler>,
     /// What this frame does without.
     pub left_out: Vec<LeftOut>,
 }
@@ -133,12 +154,15 @@ pub struct Plan {
 impl Plan {
     /// Decides what `options` of `scene` needs; `instances` are those of the pose to be shown.
     pub fn new(scene: &Scene, instances: Vec<Instance>, options: &FrameOptions) -> Self {
-        let mut plan = Self { instances, ..Self::default() };
+        let mut plan = Self { instances, attachments: Attachment::all(options), ..Self::default() };
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
-        plan.add_passes();
-        plan.explain(scene, options);
+        if options.everything {
+            plan.add_spare_pipelines(scene, options);
+        }
+        plan.add_passes(options);
+        plan.left_out = left_out(&plan, scene, options);
         plan
     }
 
@@ -147,33 +171,48 @@ impl Plan {
         let geometry = &scene.asset().meshes[mesh].primitives[primitive];
         let fur = scene.materials()[material].fur.as_ref().filter(|_| geometry.topology == Topology::Triangles);
 
+        if let Some(fur) = fur.filter(|_| options.shells.submission == ShellSubmission::Duplicated) {
+            self.copies.insert((mesh, primitive), options.layers_of_coat(fur.layers));
+        }
+
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
         let spec = PipelineSpec::surface(&standard, geometry, options);
         self.add_textures(scene, &spec, &surface_maps(&standard));
-        self.add_draw(scene, index, spec, DrawKind::Surface(surface));
+        self.add_draw(scene, index, spec, DrawKind::Surface(surface), options);
 
         if let Some(fur) = fur {
             let layers = options.layers_of_coat(fur.layers);
             let spec = PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options);
             self.add_textures(scene, &spec, &fur_maps(fur, &scene.materials()[material].standard));
-            self.add_draw(scene, index, spec, DrawKind::Fur { material, layers });
+            self.add_draw(scene, index, spec, DrawKind::Fur { material, layers }, options);
+            if options.sways(fur) {
+                let pipeline = index_of(&mut self.compute_pipelines, ComputeSpec::sway());
+                self.sways.push(Sway { instance: index, pipeline });
+            }
         }
     }
 
-    fn add_draw(&mut self, scene: &Scene, index: usize, spec: PipelineSpec, kind: DrawKind) {
+    fn add_draw(&mut self, scene: &Scene, index: usize, spec: PipelineSpec, kind: DrawKind, options: &FrameOptions) {
         let instance = &self.instances[index];
         let geometry = &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
         let skin = instance.skin.is_some() && geometry.vertices.influences_per_vertex > 0;
         let morph = !geometry.morph_targets.is_empty();
+        // Without joints and targets it moves nothing. It writes one copy of each vertex.
+        let at_rest = options.everything && !self.copies.contains_key(&(instance.mesh, instance.primitive));
+        let moved = skin || morph || at_rest;
         let streams = self.streams.entry((instance.mesh, instance.primitive)).or_default();
-        for input in inputs(shader(&spec.vertex)).into_iter().filter(|input| has_stream(geometry, input.stream)) {
+        for input in inputs(shader(&spec.vertex)) {
+            if !has_stream(geometry, input.stream) {
+                self.has_absent_streams |= input.stream != Stream::Sway;
+                continue;
+            }
             streams.insert(input.stream);
-            let Some(kind) = input.stream.deform_kind().filter(|_| !input.rest && (skin || morph)) else { continue };
+            let Some(kind) = input.stream.deform_kind().filter(|_| !input.rest && moved) else { continue };
             if self.deforms.iter().any(|deform| deform.instance == index && deform.stream == input.stream) {
                 continue;
             }
-            let pipeline = index_of(&mut self.compute_pipelines, ComputeSpec::deform(skin, morph, kind));
+            let pipeline = index_of(&mut self.compute_pipelines, ComputeSpec::deform(skin, morph || !skin, kind));
             self.deforms.push(Deform { instance: index, stream: input.stream, pipeline });
         }
         let list = match kind {
@@ -186,127 +225,85 @@ impl Plan {
 
     /// Only what the pipeline samples: a map without UVs, tangents or light to show it stays off the device.
     fn add_textures(&mut self, scene: &Scene, spec: &PipelineSpec, maps: &[Map]) {
-        for map in maps.iter().filter(|map| spec.samples_map(map.name)) {
-            if let Some(texture) = map.texture {
-                self.textures
-                    .insert(TextureUse { image: scene.asset().textures[texture.texture].image, srgb: map.srgb });
+        for map in maps.iter().filter(|map| spec.binds_map(map)) {
+            match map.texture.filter(|_| spec.samples_map(map)) {
+                Some(texture) => {
+                    let texture = &scene.asset().textures[texture.texture];
+                    self.textures.insert(TextureUse { image: texture.image, srgb: map.srgb });
+                    index_of(&mut self.samplers, texture.sampler);
+                }
+                None => {
+                    self.stand_ins.insert(map.stand_in);
+                }
             }
         }
     }
 
+    /// What a renderer without a plan has ready whatever it draws: a pipeline for coats and one that blends.
+    fn add_spare_pipelines(&mut self, scene: &Scene, options: &FrameOptions) {
+        let geometry = |instance: &Instance| &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
+        let is_solid = |instance: &&Instance| geometry(instance).topology == Topology::Triangles;
+        let Some(instance) = self.instances.iter().find(is_solid) else { return };
+        let standard = scene.standard(instance.material, false);
+        if !self.has_fur() {
+            let spec = PipelineSpec::fur(&Fur::default(), &standard, geometry(instance), options);
+            self.pipelines.push(spec);
+        }
+        if !self.pipelines.iter().any(|spec| spec.blend) {
+            let blending = Standard { alpha_mode: AlphaMode::Blend, ..standard.into_owned() };
+            self.pipelines.push(PipelineSpec::surface(&blending, geometry(instance), options));
+        }
+    }
+
+    /// Whether a coat is drawn, in whatever pass.
+    pub fn has_fur(&self) -> bool {
+        self.fur.iter().chain(&self.transparent).any(|draw| matches!(draw.kind, DrawKind::Fur { .. }))
+    }
+
+    /// How often the vertices and indices of (mesh, primitive) are on the device.
+    pub fn copies_of(&self, index: (usize, usize)) -> u32 {
+        self.copies.get(&index).copied().unwrap_or(1)
+    }
+
+    /// Bytes of one vertex stream of (mesh, primitive).
+    pub fn bytes_of_stream(&self, asset: &Asset, index: (usize, usize), stream: Stream) -> u64 {
+        let vertices = asset.meshes[index.0].primitives[index.1].vertices.positions.len() as u64;
+        vertices * u64::from(stream.stride()) * u64::from(self.copies_of(index))
+    }
+
+    /// Bytes of the index list of (mesh, primitive).
+    pub fn bytes_of_indices(&self, asset: &Asset, index: (usize, usize)) -> u64 {
+        asset.meshes[index.0].primitives[index.1].indices.len() as u64 * 4 * u64::from(self.copies_of(index))
+    }
+
     /// Bytes of the vertex streams.
     pub fn stream_bytes(&self, asset: &Asset) -> u64 {
-        let bytes = |(&(mesh, primitive), streams): (&(usize, usize), &BTreeSet<Stream>)| {
-            let vertices = asset.meshes[mesh].primitives[primitive].vertices.positions.len() as u64;
-            streams.iter().map(|stream| vertices * u64::from(stream.stride())).sum::<u64>()
-        };
-        self.streams.iter().map(bytes).sum()
+        let streams =
+            self.streams.iter().flat_map(|(index, streams)| streams.iter().map(move |stream| (*index, *stream)));
+        streams.map(|(index, stream)| self.bytes_of_stream(asset, index, stream)).sum()
     }
 
     /// Bytes of the index lists.
     pub fn index_bytes(&self, asset: &Asset) -> u64 {
-        self.streams
-            .keys()
-            .map(|&(mesh, primitive)| asset.meshes[mesh].primitives[primitive].indices.len() as u64 * 4)
-            .sum()
+        self.streams.keys().map(|index| self.bytes_of_indices(asset, *index)).sum()
     }
 
-    fn add_passes(&mut self) {
+    fn add_passes(&mut self, options: &FrameOptions) {
         // One pipeline after another: state changes cost more than order saves among opaque surfaces.
         self.opaque.sort_by_key(|draw| draw.pipeline);
         for (pass, wanted) in [
             (Pass::Deform, !self.deforms.is_empty()),
+            (Pass::Sway, !self.sways.is_empty()),
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),
             (Pass::Tonemap, true),
         ] {
-            if wanted {
+            if wanted || options.everything {
                 self.passes.push(pass);
             }
         }
     }
-
-    fn explain(&mut self, scene: &Scene, options: &FrameOptions) {
-        let lit = self.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
-        let mut reasons = vec![
-            (self.deforms.is_empty(), "deform pass", "nothing in the scene is skinned or morphed"),
-            (
-                self.fur.is_empty(),
-                "fur pass and pipeline",
-                "no triangles have a material with fur that cuts out or covers",
-            ),
-            (self.transparent.is_empty(), "transparent pass and pipeline", "no material blends"),
-            (!lit, "light list", "nothing that is drawn is lit"),
-            (options.msaa == 1, "multisampled targets and resolve", "one sample a pixel was asked for"),
-            (self.textures.is_empty(), "textures and samplers", "no pipeline in use samples a map"),
-        ];
-        reasons.push((true, "look-up tables", "the standard material's albedo is a closed fit"));
-        reasons.push((true, "shadow maps", "lights cast no shadows yet"));
-        reasons.push((true, "environment maps", "the surroundings are a constant radiance"));
-        self.left_out = reasons
-            .into_iter()
-            .filter(|(left_out, ..)| *left_out)
-            .map(|(_, what, why)| LeftOut { what: what.to_owned(), why: why.to_owned() })
-            .collect();
-
-        let unused = unused_streams(scene, &self.streams);
-        if !unused.is_empty() {
-            let what = format!("vertex streams: {}", unused.join(", "));
-            self.left_out.push(LeftOut { what, why: "no pipeline in use reads them".to_owned() });
-        }
-        let used: BTreeSet<usize> = self.textures.iter().map(|texture| texture.image).collect();
-        let images = scene.asset().images.len().saturating_sub(used.len());
-        if images > 0 {
-            let what = format!("{images} of {} images", scene.asset().images.len());
-            self.left_out.push(LeftOut { what, why: "no pipeline in use samples them".to_owned() });
-        }
-    }
-}
-
-/// A map of a material: its shaders call the texture `<name>_map` and the sampler `<name>_sampler`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Map {
-    /// Stem of the GLSL names.
-    pub name: &'static str,
-    /// What the material says.
-    pub texture: Option<TextureRef>,
-    /// Colour, which is decoded when sampled; everything else is data and never is.
-    pub srgb: bool,
-}
-
-impl Map {
-    fn color(name: &'static str, texture: Option<TextureRef>) -> Self {
-        Self { name, texture, srgb: true }
-    }
-
-    fn data(name: &'static str, texture: Option<TextureRef>) -> Self {
-        Self { name, texture, srgb: false }
-    }
-}
-
-/// Maps of a surface.
-pub fn surface_maps(standard: &Standard) -> [Map; 7] {
-    [
-        Map::color("base_color", standard.base_color_texture),
-        Map::data("metallic_roughness", standard.metallic_roughness_texture),
-        Map::data("occlusion", standard.occlusion_texture),
-        Map::color("emissive", standard.emissive_texture),
-        Map::data("normal", standard.normal_texture),
-        Map::color("detail_albedo", standard.detail_albedo_texture),
-        Map::data("detail_normal", standard.detail_normal_texture),
-    ]
-}
-
-/// Maps of a coat over a surface, whose base colour texture it takes where it has none of its own.
-pub fn fur_maps(fur: &Fur, standard: &Standard) -> [Map; 5] {
-    [
-        Map::data("height", fur.height_map),
-        Map::data("distribution", fur.distribution_map),
-        Map::color("base_color", fur.color_over(standard).1),
-        Map::data("spot", fur.spot_map),
-        Map::data("comb", fur.comb_map),
-    ]
 }
 
 /// Whether the primitive has what the stream is made from.
@@ -319,21 +316,8 @@ pub fn has_stream(primitive: &Primitive, stream: Stream) -> bool {
         Stream::Uv0 => !vertices.uv_sets.is_empty(),
         Stream::Uv1 => vertices.uv_sets.len() > 1,
         Stream::Color => !vertices.colors.is_empty(),
+        Stream::Sway => false,
     }
-}
-
-/// Names of streams that primitives in use have and no pipeline reads.
-fn unused_streams(scene: &Scene, used: &BTreeMap<(usize, usize), BTreeSet<Stream>>) -> Vec<String> {
-    let all = [Stream::Normal, Stream::Tangent, Stream::Uv0, Stream::Uv1, Stream::Color];
-    all.iter()
-        .filter(|stream| {
-            let mut having = used.iter().filter(|((mesh, primitive), _)| {
-                has_stream(&scene.asset().meshes[*mesh].primitives[*primitive], **stream)
-            });
-            having.clone().next().is_some() && having.all(|(_, streams)| !streams.contains(stream))
-        })
-        .map(|stream| format!("{stream:?}").to_lowercase())
-        .collect()
 }
 
 fn index_of<T: PartialEq>(list: &mut Vec<T>, item: T) -> usize {

@@ -1,13 +1,15 @@
 //! What a scene keeps on the device: streams, indices, images, materials, pipelines. Each is made when a plan
 //! first lists it and kept for the frames after.
 
-use super::geometry::{morph_delta_bytes, stream_bytes};
+use super::geometry::{index_bytes, morph_delta_bytes, stream_bytes};
+use super::map::{Map, StandIn, surface_maps};
 use super::material::standard_uniforms;
+use super::memory::{index_name, stream_name};
 use super::pipeline::{ComputeSpec, PipelineSpec};
-use super::plan::{DrawKind, Map, Plan, SurfaceUse, TextureUse, surface_maps};
-use super::stream::Stream;
+use super::plan::{DrawKind, Plan, SurfaceUse, TextureUse};
+use super::stream::{ABSENT, Stream};
 use super::texture::mip_levels;
-use crate::asset::{self, TextureRef, Wrap};
+use crate::asset::{self, Wrap};
 use crate::gpu::{
     BindGroup, Buffer, Gpu, GpuError, Image, ImageDesc, Memory, Pipeline, Resource, Sampler, SamplerDesc, Upload,
 };
@@ -15,6 +17,13 @@ use crate::scene::Scene;
 use ash::vk;
 use std::borrow::Cow;
 use std::collections::HashMap;
+
+/// Vulkan has no empty buffers.
+const LEAST_BYTES: u64 = 4;
+
+/// One texel needs no filter, and floats of 32 bits may have none.
+const STAND_IN_SAMPLER: asset::Sampler =
+    asset::Sampler { wrap: [Wrap::Repeat; 2], mag_linear: false, min_linear: false, mip_linear: None };
 
 /// Index of a primitive: mesh, primitive of the mesh.
 pub type PrimitiveIndex = (usize, usize);
@@ -30,11 +39,11 @@ pub struct Resources {
     pub influences: HashMap<PrimitiveIndex, (Buffer, Buffer)>,
     /// Morph offsets by stream.
     pub morph_deltas: HashMap<(PrimitiveIndex, Stream), Buffer>,
-    /// Zeros, bound with stride 0 where a primitive lacks a stream.
-    pub absent: Buffer,
+    /// Bound with stride 0 where a primitive lacks a stream.
+    absent: Option<Buffer>,
     images: HashMap<TextureUse, Image>,
-    /// One white texel, bound where a permutation has a map that the material lacks.
-    white: Image,
+    /// One texel each.
+    stand_ins: HashMap<StandIn, Image>,
     samplers: HashMap<asset::Sampler, Sampler>,
     surfaces: HashMap<(SurfaceUse, PipelineSpec), BindGroup>,
     pipelines: HashMap<PipelineSpec, Pipeline>,
@@ -42,32 +51,22 @@ pub struct Resources {
 }
 
 impl Resources {
-    /// Nothing but the stand-in for absent streams.
-    ///
-    /// # Errors
-    /// When the device is out of memory or lost.
-    pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let mut upload = gpu.upload();
-        let absent = filled_buffer(gpu, &mut upload, "absent stream", vk::BufferUsageFlags::VERTEX_BUFFER, &[0; 16])?;
-        let white =
-            filled_image(gpu, &mut upload, "white", [1, 1], vk::Format::R8G8B8A8_UNORM, &[vec![255; 4].into()])?;
-        upload.finish()?;
-        let plain = asset::Sampler::default();
-        let samplers = HashMap::from([(plain, gpu.sampler(&sampler_desc(&plain))?)]);
-        Ok(Self {
+    /// Nothing yet.
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
             gpu: gpu.clone(),
             streams: HashMap::new(),
             indices: HashMap::new(),
             influences: HashMap::new(),
             morph_deltas: HashMap::new(),
-            absent,
+            absent: None,
             images: HashMap::new(),
-            white,
-            samplers,
+            stand_ins: HashMap::new(),
+            samplers: HashMap::new(),
             surfaces: HashMap::new(),
             pipelines: HashMap::new(),
             compute_pipelines: HashMap::new(),
-        })
+        }
     }
 
     /// Makes what the plan lists and is not there yet.
@@ -79,6 +78,7 @@ impl Resources {
         self.prepare_geometry(&mut upload, scene, plan)?;
         self.prepare_deform_sources(&mut upload, scene, plan)?;
         self.prepare_images(&mut upload, scene, plan)?;
+        self.prepare_stand_ins(&mut upload, plan)?;
         for spec in &plan.pipelines {
             self.make_pipeline(spec)?;
         }
@@ -91,7 +91,7 @@ impl Resources {
         upload.finish()
     }
 
-    /// Drops what belongs to one scene; pipelines and samplers serve the next one, too.
+    /// Drops what belongs to one scene; pipelines, samplers and stand-ins serve the next one, too.
     pub fn forget_scene(&mut self) {
         self.streams.clear();
         self.indices.clear();
@@ -132,11 +132,18 @@ impl Resources {
         &self.surfaces[&(surface, spec.clone())]
     }
 
-    /// The texture and sampler of a map that the plan lists; for no map, the white texel.
-    pub fn map(&self, scene: &Scene, map: Option<TextureRef>, srgb: bool) -> (&Image, &Sampler) {
-        let Some(map) = map else { return (&self.white, &self.samplers[&asset::Sampler::default()]) };
-        let texture = &scene.asset().textures[map.texture];
-        (&self.images[&TextureUse { image: texture.image, srgb }], &self.samplers[&texture.sampler])
+    /// What a primitive's missing streams are read from, where a plan says that one is.
+    pub fn absent(&self) -> Option<&Buffer> {
+        self.absent.as_ref()
+    }
+
+    /// The texture and sampler of a map that a pipeline of the plan binds, or what stands in for it.
+    fn map(&self, scene: &Scene, spec: &PipelineSpec, map: &Map) -> (&Image, &Sampler) {
+        let Some(used) = map.texture.filter(|_| spec.samples_map(map)) else {
+            return (&self.stand_ins[&map.stand_in], &self.samplers[&STAND_IN_SAMPLER]);
+        };
+        let texture = &scene.asset().textures[used.texture];
+        (&self.images[&TextureUse { image: texture.image, srgb: map.srgb }], &self.samplers[&texture.sampler])
     }
 
     /// The material bind group (set 1) of a pipeline: its uniform block and what it declares of the maps.
@@ -154,8 +161,8 @@ impl Resources {
         let names: Vec<_> =
             maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
         let mut offered = vec![(block.0, Resource::Buffer(block.1))];
-        for (map, (texture_name, sampler_name)) in maps.iter().zip(&names) {
-            let (image, sampler) = self.map(scene, map.texture.filter(|_| spec.samples_map(map.name)), map.srgb);
+        for (map, (texture_name, sampler_name)) in maps.iter().zip(&names).filter(|(map, _)| spec.binds_map(map)) {
+            let (image, sampler) = self.map(scene, spec, map);
             offered.push((texture_name, Resource::Texture(image)));
             offered.push((sampler_name, Resource::Sampler(sampler)));
         }
@@ -165,20 +172,31 @@ impl Resources {
     fn prepare_geometry(&mut self, upload: &mut Upload, scene: &Scene, plan: &Plan) -> Result<(), GpuError> {
         for (&index, streams) in &plan.streams {
             let mesh = &scene.asset().meshes[index.0];
-            let name = |what: &str| format!("{what} of {}.{}", mesh.name.as_deref().unwrap_or("mesh"), index.1);
             for &stream in streams {
-                if !self.streams.contains_key(&(index, stream)) {
-                    let bytes = stream_bytes(mesh, index.1, stream);
+                let bytes = plan.bytes_of_stream(scene.asset(), index, stream);
+                if !self.streams.get(&(index, stream)).is_some_and(|buffer| holds(buffer, bytes)) {
                     // The deform pass reads what it moves.
                     let usage = vk::BufferUsageFlags::VERTEX_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
-                    let buffer = filled_buffer(&self.gpu, upload, &name(&format!("{stream:?}")), usage, &bytes)?;
+                    let buffer = device_buffer(&self.gpu, &stream_name(scene.asset(), index, stream), usage, bytes)?;
+                    let one = stream_bytes(mesh, index.1, stream);
+                    for copy in 0..u64::from(plan.copies_of(index)) {
+                        upload.buffer(&buffer, copy * one.len() as u64, &one);
+                    }
                     self.streams.insert((index, stream), buffer);
                 }
             }
-            if !self.indices.contains_key(&index) {
-                let bytes = bytemuck::cast_slice(&mesh.primitives[index.1].indices);
-                let buffer =
-                    filled_buffer(&self.gpu, upload, &name("indices"), vk::BufferUsageFlags::INDEX_BUFFER, bytes)?;
+            let bytes = plan.bytes_of_indices(scene.asset(), index);
+            if !self.indices.get(&index).is_some_and(|buffer| holds(buffer, bytes)) {
+                let buffer = device_buffer(
+                    &self.gpu,
+                    &index_name(scene.asset(), index),
+                    vk::BufferUsageFlags::INDEX_BUFFER,
+                    bytes,
+                )?;
+                for copy in 0..plan.copies_of(index) {
+                    let one = index_bytes(&mesh.primitives[index.1], copy);
+                    upload.buffer(&buffer, u64::from(copy) * one.len() as u64, &one);
+                }
                 self.indices.insert(index, buffer);
             }
         }
@@ -229,10 +247,33 @@ impl Resources {
             let image = filled_image(&self.gpu, upload, &source.name, [width, height], format, &levels)?;
             self.images.insert(texture, image);
         }
-        for texture in &scene.asset().textures {
-            if !self.samplers.contains_key(&texture.sampler) {
-                self.samplers.insert(texture.sampler, self.gpu.sampler(&sampler_desc(&texture.sampler))?);
+        for sampler in &plan.samplers {
+            self.make_sampler(sampler)?;
+        }
+        Ok(())
+    }
+
+    fn prepare_stand_ins(&mut self, upload: &mut Upload, plan: &Plan) -> Result<(), GpuError> {
+        if plan.has_absent_streams && self.absent.is_none() {
+            let usage = vk::BufferUsageFlags::VERTEX_BUFFER;
+            let buffer = filled_buffer(&self.gpu, upload, "absent stream", usage, bytemuck::cast_slice(&ABSENT))?;
+            self.absent = Some(buffer);
+        }
+        for &stand_in in &plan.stand_ins {
+            if !self.stand_ins.contains_key(&stand_in) {
+                let texel = stand_in.texel();
+                let (name, levels) = (format!("{stand_in:?}"), [Cow::Borrowed(bytemuck::bytes_of(&texel))]);
+                let image = filled_image(&self.gpu, upload, &name, [1, 1], vk::Format::R32G32B32A32_SFLOAT, &levels)?;
+                self.stand_ins.insert(stand_in, image);
             }
+            self.make_sampler(&STAND_IN_SAMPLER)?;
+        }
+        Ok(())
+    }
+
+    fn make_sampler(&mut self, sampler: &asset::Sampler) -> Result<(), GpuError> {
+        if !self.samplers.contains_key(sampler) {
+            self.samplers.insert(*sampler, self.gpu.sampler(&sampler_desc(sampler))?);
         }
         Ok(())
     }
@@ -266,13 +307,18 @@ fn filled_buffer(
     usage: vk::BufferUsageFlags,
     bytes: &[u8],
 ) -> Result<Buffer, GpuError> {
-    // Vulkan has no empty buffers.
-    let size = bytes.len().max(4) as u64;
-    let buffer = gpu.buffer(name, size, usage | vk::BufferUsageFlags::TRANSFER_DST, Memory::Device)?;
-    if !bytes.is_empty() {
-        upload.buffer(&buffer, 0, bytes);
-    }
+    let buffer = device_buffer(gpu, name, usage, bytes.len() as u64)?;
+    upload.buffer(&buffer, 0, bytes);
     Ok(buffer)
+}
+
+fn device_buffer(gpu: &Gpu, name: &str, usage: vk::BufferUsageFlags, bytes: u64) -> Result<Buffer, GpuError> {
+    gpu.buffer(name, bytes.max(LEAST_BYTES), usage | vk::BufferUsageFlags::TRANSFER_DST, Memory::Device)
+}
+
+/// Whether the buffer was made for so many bytes: another number of copies needs another one.
+fn holds(buffer: &Buffer, bytes: u64) -> bool {
+    buffer.bytes() == bytes.max(LEAST_BYTES)
 }
 
 fn filled_image(

@@ -21,7 +21,12 @@ pub enum Stream {
     ShellDirection,
     /// Three floats: unit vector across the shell direction, around the rest pose's vertical; the comb's first axis.
     ShellSide,
+    /// Three floats: bending force of the strands' own inertia, of length in [0, 1], world space; made by the sway pass.
+    Sway,
 }
+
+/// What vertices have that lack a stream: zero, and white for a colour.
+pub const ABSENT: [[f32; 4]; 2] = [[0.0; 4], [1.0; 4]];
 
 /// A vertex input and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,10 +43,15 @@ impl Stream {
     /// Bytes a vertex.
     pub fn stride(self) -> u32 {
         match self {
-            Self::Position | Self::Normal | Self::ShellDirection | Self::ShellSide => 12,
+            Self::Position | Self::Normal | Self::ShellDirection | Self::ShellSide | Self::Sway => 12,
             Self::Tangent | Self::Color => 16,
             Self::Uv0 | Self::Uv1 => 8,
         }
+    }
+
+    /// Offset in [`ABSENT`] of the value that stands in where a primitive lacks the stream, bytes.
+    pub fn absent_offset(self) -> u64 {
+        if self == Self::Color { 16 } else { 0 }
     }
 
     /// The deform shader's STREAM constant; `None` for streams that no pose changes.
@@ -50,7 +60,7 @@ impl Stream {
             Self::Position => Some(0),
             Self::Normal | Self::ShellDirection | Self::ShellSide => Some(1),
             Self::Tangent => Some(2),
-            Self::Uv0 | Self::Uv1 | Self::Color => None,
+            Self::Uv0 | Self::Uv1 | Self::Color | Self::Sway => None,
         }
     }
 }
@@ -69,6 +79,7 @@ pub fn inputs(vertex: &Shader) -> Vec<Input> {
         "color" => (Stream::Color, false),
         "shell_direction" => (Stream::ShellDirection, false),
         "shell_side" => (Stream::ShellSide, false),
+        "sway" => (Stream::Sway, false),
         "rest_position" => (Stream::Position, true),
         "rest_direction" => (Stream::ShellDirection, true),
         other => panic!("no vertex stream is named {other}"),

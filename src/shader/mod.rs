@@ -4,6 +4,8 @@
 //! the two generated modules here: [`table`] (one [`Shader`] per permutation) and [`layout`] (one
 //! `repr(C)` struct per uniform, storage or push-constant block, with offset asserts).
 
+#[cfg(feature = "measure")]
+pub mod function;
 pub mod layout;
 pub mod table;
 

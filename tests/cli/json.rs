@@ -30,9 +30,10 @@ fn render() {
     assert_eq!(report["ms"]["frame_count"], 3);
     for pass in report["passes"].as_array().unwrap() {
         has(pass, &["/name", "/draws"]);
-        assert!(
-            pass.as_object().unwrap().contains_key("gpu_ms") && pass.as_object().unwrap().contains_key("fragments")
-        );
+        let [median, min, max] = ["gpu_ms", "gpu_ms_min", "gpu_ms_max"].map(|name| pass[name].as_f64().unwrap());
+        assert!(0.0 <= min && min <= median && median <= max, "{pass}");
+        assert_eq!(pass["gpu_ms_count"], 3);
+        assert!(pass["fragments"].as_u64().unwrap() > 0, "{pass}");
     }
     let picture = image::open(folder.path().join("vair.png")).unwrap();
     assert_eq!((picture.width(), picture.height()), (16, 9));
@@ -45,6 +46,7 @@ fn inspect() {
     let report = folder.run(["inspect", "quad.gltf", "--preset", "leopard", "--json"]).success().json();
     has(&report, &["/passes/0/name", "/pipelines/0/name", "/pipelines/0/state", "/memory/target_bytes"]);
     has(&report, &["/textures/0/name", "/textures/0/format", "/textures/0/bytes", "/left_out/0/what", "/lint"]);
+    has(&report, &["/attachments/0/name", "/memory/by_owner/depth", "/pipelines/0/state/bindings", "/left_out/0/why"]);
     let names: Vec<_> = report["pipelines"].as_array().unwrap().iter().map(|pipeline| &pipeline["name"]).collect();
     assert!(names.iter().any(|name| **name == "tonemap.frag"), "{names:?}");
     // 1280 x 720: 8 bytes of colour and 4 of depth at 4 samples, 8 resolved, 4 of picture.
@@ -75,4 +77,22 @@ fn devices_and_presets() {
     for arguments in [&["devices"][..], &["presets"], &["presets", "--parameters"]] {
         assert!(!folder.run(arguments).success().text().is_empty());
     }
+}
+
+#[test]
+fn verify() {
+    let folder = Folder::new();
+    let report = folder.run(["verify", "--only", "schlick_weight", "--json", "--validate"]).success().json();
+    has(
+        &report,
+        &["/device", "/seconds", "/pass", "/functions/0/name", "/functions/0/max_rel", "/functions/0/p999_rel"],
+    );
+    has(&report, &["/functions/0/limit", "/functions/0/limit_abs", "/functions/0/worst/inputs/v_dot_h/0"]);
+    assert_eq!((&report["pass"], &report["functions"][0]["nonfinite"]), (&true.into(), &0.into()));
+    assert!(report["functions"][0]["samples"].as_u64().unwrap() > 1 << 18);
+    assert!(
+        folder.run(["verify", "--only", "schlick"]).success().text().contains("1 of 1 functions meet their limits")
+    );
+    assert!(folder.run(["verify", "--list"]).success().text().lines().any(|line| line == "strand_lobe"));
+    folder.fails(1, ["verify", "--only", "schlik"], &["schlik", "schlick", "--list"]);
 }

@@ -3,6 +3,7 @@
 mod bad_input;
 mod bad_look;
 mod json;
+mod profile;
 mod program;
 mod sequence;
 mod usage;

@@ -1,6 +1,6 @@
 //! Pictures and sequences: names, shards, formats, standard output, names that are not UTF-8.
 
-use crate::program::{SMALL, png, quad, with_quad};
+use crate::program::{SMALL, data_uri, png, quad, with_quad};
 use serde_json::json;
 
 fn render<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -72,4 +72,39 @@ fn names_need_not_be_utf_8() {
     arguments.extend([OsStr::new("--frames"), OsStr::new("0..1")]);
     folder.run(&arguments).success();
     assert!(folder.path().join(OsStr::from_bytes(b"p\xff0000.png")).is_file());
+}
+
+/// The quad with a coat that sways, on a node that moves a metre in a second.
+fn swaying_quad() -> serde_json::Value {
+    let numbers = [0.0f32, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let mut scene = quad();
+    let mut add = |list: &str, item: serde_json::Value| scene[list].as_array_mut().unwrap().push(item);
+    add("buffers", json!({ "byteLength": bytes.len(), "uri": data_uri(&bytes) }));
+    add("bufferViews", json!({ "buffer": 1, "byteOffset": 0, "byteLength": 8 }));
+    add("bufferViews", json!({ "buffer": 1, "byteOffset": 8, "byteLength": 24 }));
+    let times = json!({ "bufferView": 2, "componentType": 5126, "type": "SCALAR", "count": 2, "min": [0], "max": [1] });
+    add("accessors", times);
+    add("accessors", json!({ "bufferView": 3, "componentType": 5126, "type": "VEC3", "count": 2 }));
+    let channel = json!({ "sampler": 0, "target": { "node": 0, "path": "translation" } });
+    scene["animations"] = json!([{ "channels": [channel], "samplers": [{ "input": 2, "output": 3 }] }]);
+    let keys = json!({ "kind": "fur", "length": 0.3, "inertia": 0.8, "stiffness": 50.0 });
+    scene["materials"][0]["extras"] = json!({ "vair": keys });
+    scene
+}
+
+#[test]
+fn a_shard_of_a_sequence_that_sways_is_the_sequence() {
+    let folder = with_quad();
+    folder.write("quad.gltf", swaying_quad().to_string());
+    let sequence = |more: &[&str]| {
+        folder.run(render(&["--fps", "24"]).into_iter().chain(more.iter().copied())).success();
+    };
+    sequence(&["--frames", "0..8", "--out", "whole.png"]);
+    sequence(&["--frames", "0..8", "--out", "part.png", "--shard", "3/4"]);
+    sequence(&["--frames", "7..8", "--out", "alone.png"]);
+    let picture = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(picture("part0003.png") == picture("whole0003.png"));
+    assert!(picture("part0007.png") == picture("whole0007.png"));
+    assert!(picture("alone0007.png") != picture("whole0007.png"), "a sequence starts from rest");
 }

@@ -235,6 +235,21 @@ fn numbers_that_are_not_finite_are_named() {
     b.set("/nodes/0/matrix", json!(matrix));
     let error = b.error();
     assert!(error.contains("nodes[0].matrix") && error.contains("number 4"), "{error}");
+    // What becomes a parameter of a shader; texels are bytes and cannot be anything else.
+    let factors: [(&str, serde_json::Value); 5] = [
+        ("pbrMetallicRoughness", json!({ "baseColorFactor": [1.0, 1e39, 1.0, 1.0] })),
+        ("pbrMetallicRoughness", json!({ "roughnessFactor": 1e39 })),
+        ("emissiveFactor", json!([0.0, 0.0, 1e39])),
+        ("alphaCutoff", json!(1e39)),
+        ("normalTexture", json!({ "index": 0, "scale": -1e39 })),
+    ];
+    for (key, value) in factors {
+        let mut b = quad();
+        b.set("/materials", json!([{ key: value }]));
+        b.set("/textures", json!([{}]));
+        let error = b.error();
+        assert!(error.contains("materials[0]") && error.contains("finite"), "{key}: {error}");
+    }
 }
 
 #[test]

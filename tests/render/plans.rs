@@ -11,7 +11,8 @@ use vair::asset::procedural::GALLERY_CAMERA;
 use vair::render::{FrameOptions, Shot};
 use vair::scene::{CameraChoice, Scene};
 
-fn textured_quad() -> Scene {
+/// A quad with a colour and a normal map.
+pub fn textured_quad() -> Scene {
     let mut stage = Stage::front(1.0);
     let color = stage.texture([2, 2], &[[200; 4]; 4], NEAREST);
     let normal = stage.texel([128, 128, 255, 255]);
@@ -41,7 +42,8 @@ fn plain_cube_needs_one_pipeline() {
 }
 
 #[test]
-fn textured_quad_loads_its_maps() {
+/// A quad with a colour and a normal map.
+pub fn textured_quad_loads_its_maps() {
     snapshot("textured-quad", &textured_quad(), &options([64, 64], 4));
 }
 

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 use vair::asset::{Primitive, Transform};
 use vair::material::reference::strand::{arc, bend_angle};
 use vair::material::{ForceSpace, Fur, Length};
-use vair::render::Picture;
+use vair::render::{FrameOptions, Picture, ShellSampling, Shells as ShellOptions};
 
 const LAYERS: u32 = 6;
 const HALF_M: f32 = 0.4;
@@ -163,7 +163,8 @@ fn check(
     [1, 4]
         .into_iter()
         .flat_map(|msaa| {
-            let picture = device.picture(&scene, &options([96, 96], msaa));
+            let shells = ShellOptions { sampling: ShellSampling::Point, ..ShellOptions::default() };
+            let picture = device.picture(&scene, &FrameOptions { shells, ..options([96, 96], msaa) });
             let shells = Shells { half_m: half_m.into(), layers, displacement };
             shells.compare(&format!("{what}, {msaa} samples"), &picture, view_half_m.into(), backwards, up)
         })

@@ -5,9 +5,9 @@ use crate::headless::headless;
 use crate::stage::{Stage, at, options, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
-use vair::asset::{AlphaMode, Material, Primitive, Topology};
+use vair::asset::{AlphaMode, Animation, Material, Primitive, Topology};
 use vair::material::{Blend, Fur, Shape};
-use vair::render::Shot;
+use vair::render::{FrameOptions, Shot};
 use vair::scene::Scene;
 use vair::shader::table;
 
@@ -89,12 +89,17 @@ fn coats() -> Scene {
             let locks = Fur { clump: 0.5, curl: 0.5, ..base.clone() };
             let combed = Fur { comb: Vec2::X, ..base.clone() };
             for fur in [locks, combed, base, Fur { clump: 0.5, ..maps.clone() }, uncombed, maps] {
-                let material = stage.material(plain());
-                stage.object(colored(has_color), material, at(Vec3::ZERO));
-                coats.push((material, fur));
+                // To sway changes vertices alone: one way to blend stands for all.
+                let swaying = (blend == Blend::Cutout).then(|| Fur { inertia: 0.5, ..fur.clone() });
+                for fur in [Some(fur), swaying].into_iter().flatten() {
+                    let material = stage.material(plain());
+                    stage.object(colored(has_color), material, at(Vec3::ZERO));
+                    coats.push((material, fur));
+                }
             }
         }
     }
+    stage.asset.animations.push(Animation::default());
     let mut scene = stage.scene();
     for (material, fur) in coats {
         scene.materials_mut()[material].fur = Some(fur);
@@ -112,12 +117,15 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     let mut used = BTreeSet::from(["tonemap.vert".to_owned(), "tonemap.frag".to_owned()]);
     headless(|device| {
         for msaa in [1, 4] {
-            let frame = options([4, 4], msaa);
             for scene in &scenes {
+                let animation = (!scene.asset().animations.is_empty()).then_some(0);
+                let frame = FrameOptions { animation, ..options([4, 4], msaa) };
                 let plan = Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
                 used.extend(plan.pipelines.iter().flat_map(|spec| [spec.vertex.clone(), spec.fragment.clone()]));
+                used.extend(plan.pipelines.iter().map(|spec| spec.counting().fragment));
                 used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader.clone()));
                 device.picture(scene, &frame);
+                device.renderer.count_fragments(scene, &frame).unwrap_or_else(|error| panic!("{error}"));
             }
         }
         let compiled: BTreeSet<String> = table::ALL.iter().map(|shader| shader.name.to_owned()).collect();

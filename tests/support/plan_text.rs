@@ -9,6 +9,10 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     let mut text = String::new();
     let mut line = |line: String| writeln!(text, "{line}").unwrap_or_else(|error| panic!("{error}"));
     line(format!("passes: {}", plan.passes.iter().map(|pass| pass.name()).collect::<Vec<_>>().join(", ")));
+    line("attachments:".to_owned());
+    for attachment in &plan.attachments {
+        line(format!("  {}: {:?}, {} samples", attachment.name, attachment.format, attachment.samples));
+    }
     line("instances:".to_owned());
     for instance in &plan.instances {
         let (mesh, primitive) = (instance.mesh, instance.primitive);
@@ -40,6 +44,9 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     for deform in &plan.deforms {
         line(format!("  instance {}, {:?}, compute pipeline {}", deform.instance, deform.stream, deform.pipeline));
     }
+    for sway in &plan.sways {
+        line(format!("swaying coat: instance {}, compute pipeline {}", sway.instance, sway.pipeline));
+    }
     line("vertex streams:".to_owned());
     for ((mesh, primitive), streams) in &plan.streams {
         line(format!("  mesh {mesh}.{primitive}: {streams:?}"));
@@ -54,6 +61,7 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
         let coding = if texture.srgb { "colour" } else { "data" };
         line(format!("  {:?}, {coding}", scene.asset().images[texture.image].name));
     }
+    line(format!("stand-ins: {:?}, absent streams: {}", plan.stand_ins, plan.has_absent_streams));
     line("left out:".to_owned());
     for left_out in &plan.left_out {
         line(format!("  {}: {}", left_out.what, left_out.why));

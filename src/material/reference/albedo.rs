@@ -116,16 +116,26 @@ pub fn largest_roughness_power(i: usize, j: usize) -> usize {
 pub fn fresnel_basis(mu: f64, t: f64, roughness: f64) -> [f64; FRESNEL_TERMS] {
     let mut terms = [0.0; FRESNEL_TERMS];
     let mut next = terms.iter_mut();
-    for i in (0..=FRESNEL_DEGREE as i32).rev() {
-        for j in (0..=FRESNEL_DEGREE as i32 - i).rev() {
-            for k in 0..=largest_roughness_power(i as usize, j as usize) as i32 {
+    let [mu, t, roughness] = [mu, t, roughness].map(powers);
+    for i in (0..=FRESNEL_DEGREE).rev() {
+        for j in (0..=FRESNEL_DEGREE - i).rev() {
+            for roughness in &roughness[..=largest_roughness_power(i, j)] {
                 if let Some(term) = next.next() {
-                    *term = mu.powi(i) * t.powi(j) * roughness.powi(k);
+                    *term = mu[i] * t[j] * roughness;
                 }
             }
         }
     }
     terms
+}
+
+/// Powers 0.. of `x`.
+fn powers(x: f64) -> [f64; FRESNEL_DEGREE + 1] {
+    let mut powers = [1.0; FRESNEL_DEGREE + 1];
+    for exponent in 1..powers.len() {
+        powers[exponent] = powers[exponent - 1] * x;
+    }
+    powers
 }
 
 impl Fit {

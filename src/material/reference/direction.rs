@@ -1,6 +1,6 @@
 //! Twin of `direction.glsl`: unit vectors from vectors that may be nothing.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 /// `vector` at unit length, or `fallback` where it is shorter than 1e-15.
 pub fn or(vector: DVec3, fallback: DVec3) -> DVec3 {
@@ -9,10 +9,10 @@ pub fn or(vector: DVec3, fallback: DVec3) -> DVec3 {
 
 /// Tangent and bitangent of the frame around a unit normal (Duff et al. 2017).
 pub fn frame(normal: DVec3) -> [DVec3; 2] {
-    // The rotation that takes +-z to the normal along the shortest way, applied to x and y.
+    // The rotation that takes +-z to the normal along the shortest way, applied to x and y, which are across that pole.
     let pole = if normal.z >= 0.0 { DVec3::Z } else { DVec3::NEG_Z };
-    let turn = DQuat::from_rotation_arc(pole, normal);
-    [turn * DVec3::X, turn * (DVec3::Y * pole.z)]
+    let turned = |axis: DVec3| axis - (pole + normal) * (normal.dot(axis) / (1.0 + pole.dot(normal)));
+    [turned(DVec3::X), turned(DVec3::Y * pole.z)]
 }
 
 #[cfg(test)]

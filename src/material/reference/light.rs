@@ -1,5 +1,8 @@
 //! Twin of `light.glsl`: punctual lights (KHR_lights_punctual).
 
+/// Irradiance is limited to this, linear: times the peak of the sharpest lobe (about 1e8) it is still a finite number.
+pub const LARGEST_IRRADIANCE: f64 = 1e30;
+
 /// Share of the light left at a distance within a range.
 pub fn range_window(distance_squared: f64, range_m: f64) -> f64 {
     (1.0 - (distance_squared / range_m.powi(2)).powi(2)).clamp(0.0, 1.0)

@@ -35,28 +35,25 @@ pub fn middle(in_locks: DVec3) -> (DVec3, f64) {
     nearest
 }
 
-/// Root that the strand passing at `position` (in strand spacings) and `height` grew from.
-pub fn root(position: DVec3, normal: DVec3, height: f64, clump: f64, curl: f64) -> DVec3 {
+/// From the middle of its lock to a place (in strand spacings), across the strands; and the lock's random number.
+pub fn at(position: DVec3, normal: DVec3) -> (DVec3, f64) {
     let (middle, random) = middle(position / SIZE);
-    root_in(middle * SIZE, random, position, normal, height, clump, curl)
+    ((middle.dot(normal) * normal - middle) * SIZE, random)
 }
 
-/// The same for a known lock: its middle relative to `position`, in strand spacings, and its random number.
-pub fn root_in(
-    middle: DVec3,
-    random: f64,
-    position: DVec3,
-    normal: DVec3,
-    height: f64,
-    clump: f64,
-    curl: f64,
-) -> DVec3 {
-    let from_middle = middle.dot(normal) * normal - middle;
+/// Root that the strand passing at `position` (in strand spacings) and `height` grew from.
+pub fn root(position: DVec3, normal: DVec3, height: f64, clump: f64, curl: f64) -> DVec3 {
+    let (from_middle, random) = at(position, normal);
+    position + way_to_root(from_middle, random, normal, height, clump, curl)
+}
+
+/// From a place to that root; see the shader.
+pub fn way_to_root(from_middle: DVec3, random: f64, normal: DVec3, height: f64, clump: f64, curl: f64) -> DVec3 {
     let gather = 1.0 / (1.0 - 0.85 * clump * height).max(0.1);
     let away = if normal.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
     let side = normal.cross(away).normalize();
     let (sine, cosine) = (2.0 * TAU * if random < 0.5 { -height } else { height } + TAU * random).sin_cos();
-    position + from_middle * (gather - 1.0) + curl * height * (cosine * side + sine * normal.cross(side))
+    from_middle * (gather - 1.0) + curl * height * (cosine * side + sine * normal.cross(side))
 }
 
 #[cfg(test)]

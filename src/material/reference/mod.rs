@@ -5,6 +5,7 @@
 //! All directions are unit vectors in the tangent frame (z = normal) and point away from the surface.
 
 pub mod albedo;
+pub mod classic;
 pub mod color;
 pub mod coverage;
 pub mod direction;
@@ -14,5 +15,6 @@ pub mod light;
 pub mod lock;
 pub mod standard;
 pub mod strand;
+pub mod sway;
 pub mod tonemap;
 pub mod uv;

@@ -42,19 +42,27 @@ impl Surface {
         })
     }
 
+    /// Turquin's factor on the specular lobe, seen at the cosine `mu_v`: `1 + F0 (1 - E1(v)) / E1(v)`.
+    pub fn specular_compensation(&self, fit: &Fit, mu_v: f64) -> DVec3 {
+        let (white, _) = fit.terms(mu_v, self.roughness);
+        per_channel(|channel| 1.0 + self.f0(channel) * (1.0 - white) / white)
+    }
+
+    /// The specular lobe before the compensation, times `mu_l`: what GGX scatters once. 0 where a direction is at or
+    /// below the horizon.
+    pub fn single_scattering_times_cosine(&self, v: DVec3, l: DVec3) -> DVec3 {
+        let alpha = ggx::alpha_of_roughness(self.roughness);
+        let h = ggx::half_vector(v, l);
+        let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
+        per_channel(|channel| lobe * ggx::schlick(self.f0(channel), v.dot(h)))
+    }
+
     /// BRDF times `mu_l`; 0 where a direction is at or below the horizon.
     pub fn brdf_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
         if v.z <= 0.0 || l.z <= 0.0 {
             return DVec3::ZERO;
         }
-        let alpha = ggx::alpha_of_roughness(self.roughness);
-        let h = ggx::half_vector(v, l);
-        let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
-        let (white, _) = fit.terms(v.z, self.roughness);
-        let specular = per_channel(|channel| {
-            let f0 = self.f0(channel);
-            lobe * ggx::schlick(f0, v.dot(h)) * (1.0 + f0 * (1.0 - white) / white)
-        });
+        let specular = self.specular_compensation(fit, v.z) * self.single_scattering_times_cosine(v, l);
         specular + self.diffuse_brdf(fit, v.z, l.z) * l.z
     }
 

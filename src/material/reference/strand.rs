@@ -8,6 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub const JITTER: f64 = 0.5;
 /// Farthest distance, in cells, of a strand's point from the surface.
 pub const REACH: f64 = 0.5;
+/// Thinner strands, in cells, are none.
+pub const SMALLEST_RADIUS: f64 = 1e-3;
 
 /// A procedural strand, if a surface passes close by.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,48 +40,155 @@ impl Strand {
         let height = offset.dot(normal);
         (offset - height * normal, 1.0 - (height / REACH).powi(2))
     }
-
-    /// Its profile over a slab of the view ray; `None` where it is out of reach. See [`field`].
-    pub fn profile(&self, position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -> Option<f64> {
-        let (in_plane, shrink) = self.offset(position, normal);
-        let distance = segment_distance(in_plane, half_segment);
-        (shrink > 0.0).then(|| self.full_length() * (1.0 - distance / (radius * shrink)))
-    }
 }
 
-/// Profile and random number of the strongest procedural strand over a slab of the view ray.
-///
-/// `position` and `half_segment` are in cells, `normal` is a unit vector, `radius` is in cells. Looks at every cell
-/// that can matter, not at the shader's eight.
-pub fn field(position: DVec3, normal: DVec3, radius: f64, half_segment: DVec3) -> (f64, f64) {
+/// All strands within `reach` cells of a place, and some beyond.
+pub fn around(position: DVec3, reach: f64) -> impl Iterator<Item = Strand> {
+    let home = position.floor();
+    let cells = (reach + JITTER + REACH).ceil() as i32;
+    let steps = move || (-cells..=cells).map(f64::from);
+    let steps = steps().flat_map(move |x| steps().flat_map(move |y| steps().map(move |z| DVec3::new(x, y, z))));
+    steps.map(move |step| Strand::of_cell(home + step))
+}
+
+/// Profile and random number of the strongest procedural strand at a place: 1 on the axis of a full-length strand,
+/// falling linearly to 0 at its root radius and below it outside. `position` is in cells, `normal` a unit vector, `radius`
+/// in cells. Looks at every cell that can matter.
+pub fn field(position: DVec3, normal: DVec3, radius: f64) -> (f64, f64) {
     let mut nearest = (-1e3, 0.0);
-    let middle = position.floor();
-    for x in -2..=2 {
-        for y in -2..=2 {
-            for z in -2..=2 {
-                let cell = middle + DVec3::new(f64::from(x), f64::from(y), f64::from(z));
-                let strand = Strand::of_cell(cell);
-                let Some(profile) = strand.profile(position, normal, radius, half_segment) else { continue };
-                if profile > nearest.0 {
-                    nearest = (profile, strand.random);
-                }
-            }
+    for strand in around(position, 0.5) {
+        let (across, share) = strand.offset(position, normal);
+        let profile = strand.full_length() * (1.0 - across.length() / (radius * share));
+        if share > 0.0 && profile > nearest.0 {
+            nearest = (profile, strand.random);
         }
     }
     nearest
 }
 
-fn segment_distance(point: DVec3, half_segment: DVec3) -> f64 {
-    let length_squared = half_segment.length_squared();
-    let along = if length_squared > 0.0 { (point.dot(half_segment) / length_squared).clamp(-1.0, 1.0) } else { 0.0 };
-    (point - along * half_segment).length()
+/// The part of a view ray that a shell stands for; see the shader. Lengths in cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Path {
+    /// Root that the ray passes in the slab's middle.
+    pub middle: DVec3,
+    /// Of the profile there.
+    pub threshold: f64,
+    /// From the middle to the upper boundary, across the strands.
+    pub half_segment: DVec3,
+    /// From the middle to the upper boundary.
+    pub threshold_rise: f64,
+    /// Unit vector.
+    pub normal: DVec3,
+    /// Of strands at their root.
+    pub radius: f64,
+    /// 1 where the ray comes in from above, -1 from below.
+    pub entry: f64,
+    /// Half a pixel in root radii: the margin from which on a strand fills it, > 0.
+    pub enough: f64,
 }
 
-/// Closed form of the mean coverage at a threshold, swept over a segment of that half length (in cells).
-pub fn mean_coverage(threshold: f64, radius: f64, half_length: f64) -> f64 {
-    let radius = radius * (1.0 - threshold / 0.875).max(0.0);
-    let area = PI * radius * radius * (8.0 / 15.0) + 2.0 * radius * (2.0 / 3.0) * 2.0 * half_length;
-    1.0 - (-area).exp()
+/// What a ray meets in a slab.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// How far inside a strand the ray comes, in root radii.
+    pub margin: f64,
+    /// Where in [-1, 1] the ray enters the first strand, if it meets one.
+    pub place: f64,
+    /// Of that strand.
+    pub random: f64,
+}
+
+/// No strand.
+const NONE: Hit = Hit { margin: -1e3, place: 0.0, random: 0.0 };
+
+/// What the ray meets of one strand, found by halving. What is thinner than a pixel counts by its width.
+pub fn meet(path: &Path, strand: &Strand) -> Hit {
+    let (across, share) = strand.offset(path.middle, path.normal);
+    let (radius, full_length) = (path.radius * share, strand.full_length());
+    if radius < SMALLEST_RADIUS {
+        return NONE;
+    }
+    let threshold = |place: f64| path.threshold + place * path.threshold_rise;
+    let distance = |place: f64| (across - place * path.half_segment).length();
+    let margin = |place: f64| full_length * (1.0 - distance(place) / radius) - threshold(place);
+    let best = maximum(&margin);
+    let largest = margin(best);
+    let place = if largest > 0.0 { first_inside(&margin, path.entry, best) } else { best };
+    // Lengths of the profile as lengths across the strand, in root radii.
+    let in_radii = share / full_length;
+    let width = 2.0 * (full_length - threshold(best)) * in_radii;
+    Hit { margin: (largest * in_radii).min(width - path.enough), place, random: strand.random }
+}
+
+/// Of two hits the first, or where neither is inside a strand the nearer; with the larger margin.
+pub fn first(a: Hit, b: Hit, entry: f64) -> Hit {
+    let is_b = match (a.margin > 0.0, b.margin > 0.0) {
+        (true, true) => b.place * entry > a.place * entry,
+        _ => b.margin > a.margin,
+    };
+    Hit { margin: a.margin.max(b.margin), ..if is_b { b } else { a } }
+}
+
+/// What the ray meets first, or comes closest to, and the largest margin of all strands, at most `enough`. The segment is
+/// taken across the strands.
+pub fn walk(path: &Path) -> Hit {
+    let half_segment = path.half_segment - path.half_segment.dot(path.normal) * path.normal;
+    let path = &Path { half_segment, ..*path };
+    let strands = around(path.middle, half_segment.length() + 0.5);
+    let hit = strands.fold(NONE, |hit, strand| first(hit, meet(path, &strand), path.entry));
+    Hit { margin: hit.margin.min(path.enough), ..hit }
+}
+
+/// Place in [-1, 1] of the maximum of a concave function.
+fn maximum(value: &impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (-1.0f64, 1.0f64);
+    for _ in 0..80 {
+        let third = (high - low) / 3.0;
+        if value(low + third) < value(high - third) { low += third } else { high -= third }
+    }
+    [-1.0, 1.0, 0.5 * (low + high)].into_iter().max_by(|a, b| value(*a).total_cmp(&value(*b))).unwrap_or(0.0)
+}
+
+/// Place nearest to `entry` where a concave function that is positive at `inside` is not negative.
+fn first_inside(value: &impl Fn(f64) -> f64, entry: f64, inside: f64) -> f64 {
+    if value(entry) >= 0.0 {
+        return entry;
+    }
+    let (mut out, mut within) = (entry, inside);
+    for _ in 0..60 {
+        let middle = 0.5 * (out + within);
+        if value(middle) >= 0.0 { within = middle } else { out = middle }
+    }
+    within
+}
+
+/// Mean over full lengths in [0.75, 1] of what a threshold >= 0 leaves of strands: of their radius, and of their
+/// cross-section.
+pub fn left(threshold: f64) -> [f64; 2] {
+    let least = threshold.max(0.75);
+    if least >= 1.0 {
+        return [0.0; 2];
+    }
+    // Antiderivatives of 1 - t / f and of its square.
+    let radius = |f: f64| f - threshold * f.ln();
+    let section = |f: f64| f - 2.0 * threshold * f.ln() - threshold * threshold / f;
+    [(radius(1.0) - radius(least)) / 0.25, (section(1.0) - section(least)) / 0.25]
+}
+
+/// Mean cross-section of strands a cell of surface. A strand whose point lies h off the surface has the radius 1 - h^2:
+/// over [-1, 1] its square has the mean 8/15.
+pub fn cross_section(threshold: f64, radius: f64) -> f64 {
+    PI * radius * radius * 8.0 / 15.0 * left(threshold)[1]
+}
+
+/// The same of their widths seen from the side; 1 - h^2 has the mean 2/3.
+pub fn width(threshold: f64, radius: f64) -> f64 {
+    4.0 / 3.0 * radius * left(threshold)[0]
+}
+
+/// Mean opacity of a slab of strands placed by chance.
+pub fn slab_opacity(cap: f64, width: f64, length_in_cells: f64) -> f64 {
+    -(-(cap.max(0.0) + width * length_in_cells)).exp_m1()
 }
 
 /// How far strands are below the eye's resolution; `slope` is the change of the profile over a pixel.
@@ -88,10 +197,10 @@ pub fn unresolved(slope: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Opacity of a profile at a threshold, one pixel wide at the edge.
-pub fn opacity(profile: f64, threshold: f64, slope: f64, mean_coverage: f64) -> f64 {
-    let edge = ((profile - threshold) / slope.max(1e-6) + 0.5).clamp(0.0, 1.0);
-    edge + (mean_coverage - edge) * unresolved(slope)
+/// Opacity at a margin, one pixel wide at the edge.
+pub fn opacity(margin: f64, slope: f64, mean: f64) -> f64 {
+    let edge = (margin / slope.max(1e-6) + 0.5).clamp(0.0, 1.0);
+    edge + (mean - edge) * unresolved(slope)
 }
 
 /// Threshold of the profile at a height in the coat.
@@ -125,13 +234,16 @@ pub fn light_through_coat(height: f64, occlusion: f64, cosine_to_light: f64) -> 
     ((1.0 - occlusion).max(1e-3).ln() * (1.0 - height) / cosine_to_light.max(0.05)).exp()
 }
 
+/// Cosine around the fibre of a direction along it, which has none: there cos(phi / 2) takes its mean, 2 / pi.
+pub const COSINE_ALONG: f64 = 8.0 / (PI * PI) - 1.0;
+
 /// One scattering lobe of a fibre; its integral over all directions is at most 1.
 pub fn lobe(tangent: DVec3, to_eye: DVec3, to_light: DVec3, shift: f64, variance: f64) -> f64 {
     let (sine_eye, sine_light) = (tangent.dot(to_eye), tangent.dot(to_light));
     let along = (-(sine_eye + sine_light - shift).powi(2) / (2.0 * variance)).exp() / (2.0 * PI * variance).sqrt();
     let (eye, light) = (to_eye - sine_eye * tangent, to_light - sine_light * tangent);
     let lengths = eye.length_squared() * light.length_squared();
-    let cosine = if lengths > 1e-12 { eye.dot(light) / lengths.sqrt() } else { 1.0 };
+    let cosine = if lengths > 1e-12 { eye.dot(light) / lengths.sqrt() } else { COSINE_ALONG };
     along * 0.25 * (0.5 + 0.5 * cosine).max(0.0).sqrt()
 }
 
@@ -195,16 +307,17 @@ mod tests {
 
     #[test]
     fn the_arc_keeps_its_length_and_rises_steadily() {
-        for angle in [0.0, 1e-8, 1e-3, 0.3, 1.0, FRAC_PI_2] {
+        for angle in [0.0, 1e-8, 1e-3, 0.3, 1.0, FRAC_PI_2, 1.6, 2.5, PI] {
             let steps = 4000;
-            let (mut length, mut before) = (0.0, arc(0.0, angle));
+            let (mut length, mut before, mut rises) = (0.0, arc(0.0, angle), true);
             assert_eq!(before, [0.0, 0.0], "the root stays where it is");
             for step in 1..=steps {
                 let now = arc(f64::from(step) / f64::from(steps), angle);
-                assert!(now[1] >= before[1], "height falls at angle {angle}");
+                rises &= now[1] >= before[1];
                 length += (now[0] - before[0]).hypot(now[1] - before[1]);
                 before = now;
             }
+            assert_eq!(rises, angle <= FRAC_PI_2, "height at angle {angle}");
             assert!((length - 1.0).abs() < 1e-5, "length {length} at angle {angle}");
         }
     }
@@ -223,22 +336,87 @@ mod tests {
         }
     }
 
+    /// Two unit vectors across a normal.
+    fn planes() -> [(DVec3, DVec3); 2] {
+        [(DVec3::Z, DVec3::X), (DVec3::new(0.48, 0.6, 0.64), DVec3::new(0.8, 0.0, -0.6))]
+    }
+
+    /// Places spread over a plane; about 900 strands stand among them, which makes the noise of a mean 0.01.
+    fn places(normal: DVec3, tangent: DVec3, side: u32) -> impl Iterator<Item = DVec3> {
+        let (bitangent, step) = (normal.cross(tangent), 30.0 / f64::from(side));
+        (0..side * side)
+            .map(move |index| tangent * f64::from(index % side) * step + bitangent * f64::from(index / side) * step)
+    }
+
     #[test]
-    fn mean_coverage_is_that_of_the_field() {
-        for (normal, tangent) in [(DVec3::Z, DVec3::X), (DVec3::new(0.48, 0.6, 0.64), DVec3::new(0.8, 0.0, -0.6))] {
-            let bitangent = normal.cross(tangent);
-            for (threshold, half_length) in [(0.0, 0.0), (0.25, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5), (0.25, 1.0)] {
-                let side = 220;
-                let covered = (0..side * side)
-                    .filter(|index| {
-                        let (x, y) = (f64::from(index % side) * 0.137, f64::from(index / side) * 0.137);
-                        field(tangent * x + bitangent * y, normal, 0.35, tangent * half_length).0 > threshold
-                    })
-                    .count();
-                let measured = covered as f64 / f64::from(side * side);
-                let expected = mean_coverage(threshold, 0.35, half_length);
-                // Sampling noise over about 900 strands is 0.01; points stratified by cell overlap less than chance.
-                assert!((measured - expected).abs() < 0.04, "{measured} for {expected} at {threshold}, {half_length}");
+    fn mean_opacity_is_that_of_the_strands() {
+        for (normal, tangent) in planes() {
+            for (threshold, half_length) in [(0.0, 0.0), (0.25, 0.0), (0.5, 0.0), (0.8, 0.0), (0.5, 0.5), (0.25, 1.0)] {
+                let met = |middle| {
+                    let half_segment = tangent * half_length;
+                    let path = Path {
+                        middle,
+                        threshold,
+                        half_segment,
+                        threshold_rise: 0.0,
+                        normal,
+                        radius: 0.35,
+                        entry: 1.0,
+                        enough: 1e-3,
+                    };
+                    f64::from(u8::from(walk(&path).margin > 0.0))
+                };
+                let side = 60;
+                let measured = places(normal, tangent, side).map(met).sum::<f64>() / f64::from(side * side);
+                let (cap, width) = (cross_section(threshold, 0.35), width(threshold, 0.35));
+                let expected = slab_opacity(cap, width, 2.0 * half_length);
+                // Points stratified by cell overlap less than chance.
+                assert!((measured - expected).abs() < 0.045, "{measured} for {expected} at {threshold}, {half_length}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_coat_of_means_does_not_depend_on_its_shells() {
+        let (radius, length, tangent_of_view) = (0.35, 6.0, 1.7);
+        let transmittance = |shells: u32| {
+            (0..shells).fold(1.0, |left, shell| {
+                let at = |boundary: u32| f64::from(boundary) / f64::from(shells);
+                let above = if shell + 1 == shells { 0.0 } else { cross_section(at(shell + 1), radius) };
+                let cap = cross_section(at(shell), radius) - above;
+                let middle = width(0.5 * (at(shell) + at(shell + 1)), radius);
+                left * (1.0 - slab_opacity(cap, middle, length * tangent_of_view / f64::from(shells)))
+            })
+        };
+        let (few, many) = (transmittance(8), transmittance(64));
+        assert!((few - many).abs() < 0.01 * (1.0 - many), "{few} {many}");
+    }
+
+    #[test]
+    fn slabs_meet_what_a_fine_march_meets() {
+        for (normal, tangent) in planes() {
+            for (index, middle) in places(normal, tangent, 24).enumerate() {
+                let entry = if index % 3 == 0 { -1.0 } else { 1.0 };
+                let half_segment = (tangent * (index % 7) as f64 + normal.cross(tangent)) * 0.2;
+                let path = Path {
+                    middle,
+                    threshold: 0.3,
+                    half_segment,
+                    threshold_rise: 0.15,
+                    normal,
+                    radius: 0.4,
+                    entry,
+                    enough: 1e-3,
+                };
+                let hit = walk(&path);
+                let marched = (0..=2000)
+                    .map(|step| entry * (1.0 - f64::from(step) / 1000.0))
+                    .find(|place| field(middle + *place * half_segment, normal, 0.4).0 >= 0.3 + 0.15 * place);
+                match marched {
+                    Some(place) => assert!((hit.place - place).abs() < 1.1e-3, "{hit:?}, marched {place}"),
+                    // The march may step over the edge of a strand.
+                    None => assert!(hit.margin < 1e-3, "{hit:?}, marched through"),
+                }
             }
         }
     }
@@ -246,14 +424,11 @@ mod tests {
     #[test]
     fn opacity_keeps_its_mean_at_every_distance() {
         for threshold in [0.025, 0.125, 0.4] {
-            let mean = mean_coverage(threshold, 0.35, 0.0);
+            let mean = slab_opacity(cross_section(threshold, 0.35), 0.0, 0.0);
             for slope in [0.05, 0.1, 0.3, 0.6, 0.75, 1.0, 1.5, 2.0, 4.0] {
                 let side = 200;
-                let sum: f64 = (0..side * side)
-                    .map(|index| {
-                        let place = DVec3::new(f64::from(index % side) * 0.137, f64::from(index / side) * 0.137, 0.3);
-                        opacity(field(place, DVec3::Z, 0.35, DVec3::ZERO).0, threshold, slope, mean)
-                    })
+                let sum: f64 = places(DVec3::Z, DVec3::X, side)
+                    .map(|place| opacity(field(place, DVec3::Z, 0.35).0 - threshold, slope, mean))
                     .sum();
                 let found = sum / f64::from(side * side);
                 // The edge is filtered where strands end in all directions, so a slope of one reaches half a radius out.

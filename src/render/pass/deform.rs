@@ -4,20 +4,20 @@
 //! world space (skinned) or object space (morphed alone). Cost: one invocation a vertex and stream.
 //! Twin: `scene::deform`.
 
-use super::Frame;
+use super::Moving;
 use crate::gpu::Encoder;
 use crate::render::plan::Pass;
 use crate::shader::layout::DeformDraw;
 
 /// Records the pass.
-pub fn record(encoder: &mut Encoder, frame: &Frame) {
-    let plan = &frame.shot.plan;
+pub fn record(encoder: &mut Encoder, moving: &Moving) {
+    let plan = &moving.shot.plan;
     encoder.compute_pass(Pass::Deform.name(), &[], |pass| {
-        for (deform, group) in plan.deforms.iter().zip(&frame.data.deform_groups) {
+        for (deform, group) in plan.deforms.iter().zip(&moving.motion.deform_groups) {
             let instance = &plan.instances[deform.instance];
-            let primitive = &frame.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
+            let primitive = &moving.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
             let vertex_count = primitive.vertices.positions.len() as u32;
-            pass.pipeline(frame.resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]));
+            pass.pipeline(moving.resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]));
             pass.bind(0, group);
             pass.push(&DeformDraw {
                 vertex_count,

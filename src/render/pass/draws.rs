@@ -1,11 +1,13 @@
 //! The draws of the opaque, fur and transparent passes: surfaces and shells.
 //!
 //! In: vertex streams, materials, frame data. Out: linear HDR colour (premultiplied alpha) and reversed depth.
-//! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first.
+//! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first. To measure
+//! against, they can be a draw each, or vertices of their own in one draw.
 
 use super::Frame;
 use crate::asset::Topology;
 use crate::gpu::RenderPass;
+use crate::render::frame_data::{FRAME_SET, OBJECT_SET};
 use crate::render::options::ShellSubmission;
 use crate::render::pipeline::shader;
 use crate::render::plan::{Draw, DrawKind};
@@ -17,7 +19,7 @@ use glam::Mat4;
 
 /// Records draws in their order.
 pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
-    let Frame { scene, resources, data, .. } = *frame;
+    let Frame { scene, resources, motion, data, .. } = *frame;
     let plan = &frame.shot.plan;
     let mut bound = None;
     let mut vertex_inputs = Vec::new();
@@ -25,9 +27,9 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         let spec = &plan.pipelines[draw.pipeline];
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
             pass.pipeline(resources.pipeline(spec));
-            let (frame, objects) = &data.shared_groups[&draw.pipeline];
-            pass.bind(0, frame);
-            pass.bind(2, objects);
+            for set in [FRAME_SET, OBJECT_SET] {
+                pass.bind(set, data.shared_group(set, spec));
+            }
             vertex_inputs = inputs(shader(&spec.vertex));
         }
         let instance = &plan.instances[draw.instance];
@@ -42,34 +44,43 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         };
         pass.bind(1, material);
         for input in &vertex_inputs {
-            let moved = data.deformed.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
-            match moved.or_else(|| resources.streams.get(&(index, input.stream))) {
-                Some(stream) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
-                None => pass.vertices(input.location, &resources.absent, 0, 0),
+            let moved = motion.streams.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
+            match (moved.or_else(|| resources.streams.get(&(index, input.stream))), resources.absent()) {
+                (Some(stream), _) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
+                (None, Some(absent)) => pass.vertices(input.location, absent, input.stream.absent_offset(), 0),
+                (None, None) => {}
             }
         }
         pass.indices(&resources.indices[&index], 0);
-        let object = ObjectDraw { object_index: draw.instance as u32, ..Default::default() };
+        let object = ObjectDraw {
+            object_index: draw.instance as u32,
+            vertices_per_shell: primitive.vertices.positions.len() as u32,
+            ..Default::default()
+        };
         pass.push(&object);
         let front = if instance.mirrored { FrontFace::CLOCKWISE } else { FrontFace::COUNTER_CLOCKWISE };
-        let count = primitive.indices.len() as u32;
-        if layers > 1 && frame.options.shells.submission == ShellSubmission::Draws {
-            pass.cull(CullModeFlags::NONE, front);
-            for shell in 0..layers {
-                pass.push(&ObjectDraw { shell, ..object });
-                pass.draw_indexed(count, 1, 0, 0);
-            }
-            continue;
-        }
-        if double_sided && spec.blend && primitive.topology == Topology::Triangles {
+        let faces: &[CullModeFlags] = match double_sided {
             // What lies behind must be blended first.
-            pass.cull(CullModeFlags::FRONT, front);
-            pass.draw_indexed(count, layers, 0, 0);
-            pass.cull(CullModeFlags::BACK, front);
-        } else {
-            pass.cull(if double_sided { CullModeFlags::NONE } else { CullModeFlags::BACK }, front);
+            true if spec.blend && primitive.topology == Topology::Triangles => {
+                &[CullModeFlags::FRONT, CullModeFlags::BACK]
+            }
+            true => &[CullModeFlags::NONE],
+            false => &[CullModeFlags::BACK],
+        };
+        let count = primitive.indices.len() as u32;
+        for face in faces {
+            pass.cull(*face, front);
+            match frame.options.shells.submission {
+                ShellSubmission::Draws if layers > 1 => {
+                    for shell in 0..layers {
+                        pass.push(&ObjectDraw { shell, ..object });
+                        pass.draw_indexed(count, 1, 0, 0);
+                    }
+                }
+                ShellSubmission::Duplicated => pass.draw_indexed(count * layers, 1, 0, 0),
+                _ => pass.draw_indexed(count, layers, 0, 0),
+            }
         }
-        pass.draw_indexed(count, layers, 0, 0);
     }
 }
 

@@ -2,15 +2,35 @@
 
 pub mod deform;
 pub mod draws;
+pub mod sway;
 pub mod tonemap;
 
 use super::Shot;
 use super::frame_data::FrameData;
+use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
-use super::targets::Targets;
-use crate::gpu::Image;
 use crate::scene::Scene;
+
+/// What the passes that move vertices share.
+pub struct Moving<'a> {
+    /// What moves.
+    pub scene: &'a Scene,
+    /// When, and what it takes.
+    pub shot: &'a Shot,
+    /// What the scene keeps on the device.
+    pub resources: &'a Resources,
+    /// What they read and write.
+    pub motion: &'a Motion,
+}
+
+impl<'a> Frame<'a> {
+    /// Its part that moves.
+    pub fn moving(&self) -> Moving<'a> {
+        let Self { scene, shot, resources, motion, .. } = *self;
+        Moving { scene, shot, resources, motion }
+    }
+}
 
 /// What the passes of one frame share.
 pub struct Frame<'a> {
@@ -22,10 +42,8 @@ pub struct Frame<'a> {
     pub options: &'a FrameOptions,
     /// What the scene keeps on the device.
     pub resources: &'a Resources,
+    /// Moved vertices.
+    pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
-    /// HDR colour and depth.
-    pub targets: &'a Targets,
-    /// The picture.
-    pub target: &'a Image,
 }

@@ -5,14 +5,33 @@
 //! Twin: `material::reference::tonemap`.
 
 use super::Frame;
-use crate::gpu::{ColorTarget, Encoder, Load, RenderPassDesc};
+use crate::gpu::{BindGroup, ColorTarget, Encoder, Gpu, GpuError, Image, Load, Pipeline, RenderPassDesc, Resource};
 use crate::render::options::Background;
 use crate::render::plan::Pass;
 use crate::shader::layout::TonemapDraw;
 use glam::Vec3;
 
+/// From where to where, and by which pipeline.
+pub struct Display<'a> {
+    hdr: &'a Image,
+    target: &'a Image,
+    pipeline: &'a Pipeline,
+    group: BindGroup,
+}
+
+impl<'a> Display<'a> {
+    /// Binds the HDR image.
+    ///
+    /// # Errors
+    /// When the device is out of memory.
+    pub fn new(gpu: &Gpu, pipeline: &'a Pipeline, hdr: &'a Image, target: &'a Image) -> Result<Self, GpuError> {
+        let group = gpu.bind_group(pipeline, 0, "tonemap", &[("hdr", Resource::Texture(hdr))])?;
+        Ok(Self { hdr, target, pipeline, group })
+    }
+}
+
 /// Records the pass.
-pub fn record(encoder: &mut Encoder, frame: &Frame) {
+pub fn record(encoder: &mut Encoder, frame: &Frame, display: &Display) {
     let options = frame.options;
     let draw = TonemapDraw {
         background: match options.background {
@@ -26,8 +45,8 @@ pub fn record(encoder: &mut Encoder, frame: &Frame) {
         background_is_light: if options.background == Background::Environment { 1.0 } else { 0.0 },
         ..Default::default()
     };
-    let color = [ColorTarget { image: frame.target, load: Load::Discard, store: true, resolve: None }];
-    let sampled = [frame.targets.hdr()];
+    let color = [ColorTarget { image: display.target, load: Load::Discard, store: true, resolve: None }];
+    let sampled = [display.hdr];
     let desc = RenderPassDesc {
         name: Pass::Tonemap.name(),
         size: options.size,
@@ -36,8 +55,8 @@ pub fn record(encoder: &mut Encoder, frame: &Frame) {
         sampled: &sampled,
     };
     encoder.render_pass(&desc, |pass| {
-        pass.pipeline(frame.resources.pipeline(&frame.data.tonemap));
-        pass.bind(0, &frame.data.tonemap_group);
+        pass.pipeline(display.pipeline);
+        pass.bind(0, &display.group);
         pass.push(&draw);
         pass.draw(3, 1);
     });

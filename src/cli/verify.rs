@@ -1,0 +1,142 @@
+//! `vair verify`.
+
+use super::output;
+use anyhow::{Result, bail};
+use clap::Args;
+use serde_json::{Map, Value, json};
+use vair::gpu::{Gpu, GpuOptions};
+use vair::verify::{self, FunctionReport, Report, Worst};
+
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// Names the functions, and evaluates nothing.
+    #[arg(long)]
+    list: bool,
+    /// A function, or those whose names contain this.
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
+    /// Device whose name contains this.
+    #[arg(long, value_name = "SUBSTRING")]
+    device: Option<String>,
+    /// Runs the validation layer; any message makes the exit status 1.
+    #[arg(long)]
+    validate: bool,
+    /// Prints one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(arguments: &VerifyArguments) -> Result<()> {
+    if arguments.list {
+        return list(arguments.json);
+    }
+    let gpu = Gpu::new(&GpuOptions {
+        device: arguments.device.clone(),
+        validate: arguments.validate,
+        ..GpuOptions::default()
+    })?;
+    let log = gpu.validation_log();
+    let report = verify::run(&gpu, arguments.only.as_deref())?;
+    drop(gpu);
+    if arguments.json {
+        output::print_json(&as_json(&report))?;
+    } else {
+        output::print(&as_text(&report))?;
+    }
+    if let Some(message) = log.messages().first() {
+        bail!("the validation layer says: {message}");
+    }
+    if let Some(broken) = report.properties.iter().find(|property| property.fails()) {
+        bail!("a formula breaks its promise: {broken}");
+    }
+    let failed: Vec<_> =
+        report.functions.iter().filter(|function| !function.pass).map(|function| function.name).collect();
+    match failed.as_slice() {
+        [] => Ok(()),
+        [first, ..] => bail!(
+            "{} of {} functions miss their limits on {}, {first} among them; --only {first} shows where",
+            failed.len(),
+            report.functions.len(),
+            report.device
+        ),
+    }
+}
+
+fn list(is_json: bool) -> Result<()> {
+    let names: Vec<_> = verify::twins().map(|twin| twin.name).collect();
+    if is_json {
+        return output::print_json(&json!({ "functions": names }));
+    }
+    output::print(&(names.join("\n") + "\n"))
+}
+
+fn as_text(report: &Report) -> String {
+    let mut text = format!(
+        "{:<36} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+        "function", "samples", "max rel", "p99.9", "max abs", "limit rel", "abs"
+    );
+    for function in &report.functions {
+        text += &format!(
+            "{:<36} {:>8} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e}{}\n",
+            function.name,
+            function.samples,
+            function.max_rel,
+            function.p999_rel,
+            function.max_abs,
+            function.limit.rel,
+            function.limit.abs,
+            match (function.pass, function.missed) {
+                (true, 0) => String::new(),
+                (true, missed) => format!("  {missed} missed, as allowed"),
+                (false, _) => "  FAIL".to_owned(),
+            }
+        );
+        if !function.pass {
+            text += &failure(function);
+        }
+    }
+    if !report.properties.is_empty() {
+        text += "\nmaterials, by their formulas; `classic` is what older engines evaluate\n";
+        for property in &report.properties {
+            text += &format!("{property}\n");
+        }
+        text += "\n";
+    }
+    let passed = report.functions.iter().filter(|function| function.pass).count();
+    let (count, device, seconds) = (report.functions.len(), &report.device, report.seconds);
+    text + &format!("{passed} of {count} functions meet their limits on {device}, {seconds:.1} s\n")
+}
+
+fn failure(function: &FunctionReport) -> String {
+    let (missed, nonfinite) = (function.missed, function.nonfinite);
+    let mut text = format!("    {missed} samples miss the limit, {nonfinite} are not finite; the worst:\n");
+    if let Some(Worst { inputs, found, expected }) = &function.worst {
+        for (name, values) in inputs {
+            text += &format!("    {name} = {values:?}\n");
+        }
+        text += &format!("    gives {found:?}\n    not   {expected:?}\n");
+    }
+    text
+}
+
+fn as_json(report: &Report) -> Value {
+    json!({
+        "device": report.device, "seconds": (report.seconds * 1e3).round() / 1e3, "pass": report.pass(),
+        "functions": report.functions.iter().map(function_as_json).collect::<Vec<_>>(),
+        "furnace": report.properties,
+    })
+}
+
+fn function_as_json(function: &FunctionReport) -> Value {
+    json!({
+        "name": function.name, "file": function.file, "samples": function.samples, "seeded": function.seeded,
+        "max_rel": function.max_rel, "max_rel_seeded": function.max_rel_seeded, "p999_rel": function.p999_rel,
+        "max_abs": function.max_abs, "of_limit": function.of_limit, "nonfinite": function.nonfinite,
+        "by_rule": function.by_rule, "missed": function.missed, "limit": function.limit.rel,
+        "limit_abs": function.limit.abs, "pass": function.pass,
+        "worst": function.worst.as_ref().map(|worst| json!({
+            "inputs": worst.inputs.iter().map(|(name, values)| ((*name).to_owned(), json!(values))).collect::<Map<_, _>>(),
+            "found": worst.found, "expected": worst.expected,
+        })),
+    })
+}

@@ -1,0 +1,69 @@
+//! What a plan takes on the device, known before the device is asked.
+
+use super::options::FrameOptions;
+use super::plan::{Plan, TextureUse};
+use super::stream::{ABSENT, Stream};
+use crate::asset::Asset;
+use crate::gpu::{format_bytes, level_size};
+use crate::scene::Scene;
+use ash::vk;
+use std::collections::BTreeMap;
+
+/// Format of the picture that [`Renderer::render`](super::Renderer::render) makes.
+pub const PICTURE_FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+/// Its name on the device.
+pub const PICTURE_NAME: &str = "picture";
+
+/// Name of a primitive's stream on the device.
+pub fn stream_name(asset: &Asset, index: (usize, usize), stream: Stream) -> String {
+    primitive_name(asset, index, &format!("{stream:?}"))
+}
+
+/// Name of a primitive's index list on the device.
+pub fn index_name(asset: &Asset, index: (usize, usize)) -> String {
+    primitive_name(asset, index, "indices")
+}
+
+fn primitive_name(asset: &Asset, (mesh, primitive): (usize, usize), what: &str) -> String {
+    format!("{what} of {}.{primitive}", asset.meshes[mesh].name.as_deref().unwrap_or("mesh"))
+}
+
+impl TextureUse {
+    /// Bytes of all mip levels, down to one texel.
+    pub fn bytes(&self, asset: &Asset) -> u64 {
+        let image = &asset.images[self.image];
+        let size = [image.width, image.height].map(|side| side.max(1));
+        let levels = 32 - size[0].max(size[1]).leading_zeros();
+        (0..levels).filter_map(|level| format_bytes(vk::Format::R8G8B8A8_UNORM, level_size(size, level))).sum()
+    }
+}
+
+impl Plan {
+    /// Bytes by the name of what holds them on the device, names ascending; those of one name are summed. Uniform blocks
+    /// and what poses need, a few bytes an object, are not in it; nor what the device adds for alignment.
+    pub fn memory(&self, scene: &Scene, options: &FrameOptions) -> BTreeMap<String, u64> {
+        let asset = scene.asset();
+        let mut owners = BTreeMap::new();
+        let mut add = |name: String, bytes: u64| *owners.entry(name).or_default() += bytes;
+        for (&index, streams) in &self.streams {
+            for &stream in streams {
+                add(stream_name(asset, index, stream), self.bytes_of_stream(asset, index, stream));
+            }
+            add(index_name(asset, index), self.bytes_of_indices(asset, index));
+        }
+        for texture in &self.textures {
+            add(asset.images[texture.image].name.clone(), texture.bytes(asset));
+        }
+        for stand_in in &self.stand_ins {
+            add(format!("{stand_in:?}"), size_of_val(&stand_in.texel()) as u64);
+        }
+        if self.has_absent_streams {
+            add("absent stream".to_owned(), size_of_val(&ABSENT) as u64);
+        }
+        for attachment in &self.attachments {
+            add(attachment.name.to_owned(), attachment.bytes(options.size));
+        }
+        add(PICTURE_NAME.to_owned(), format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0));
+        owners
+    }
+}

@@ -1,0 +1,49 @@
+//! What holds for every material under any one light: darkness without it, linearity, its own colour, finite radiance.
+
+use super::claim::{Claim, Input};
+use glam::DVec3;
+
+/// Four claims on `radiance`, which takes one number for each of `inputs` and the light's irradiance per channel.
+pub fn claims(
+    material: &'static str,
+    classic: bool,
+    inputs: &[Input],
+    radiance: impl Fn(&[f64], DVec3) -> DVec3 + Copy + Send + Sync + 'static,
+) -> Vec<Claim> {
+    let claim = |property, limit, value| Claim {
+        material,
+        property,
+        classic,
+        limit: Some(limit),
+        inputs: inputs.to_vec(),
+        value,
+    };
+    vec![
+        claim("radiance with lights off", 0.0, Box::new(move |x| radiance(x, DVec3::ZERO).abs().max_element())),
+        claim(
+            "departure from linear in light",
+            1e-6,
+            Box::new(move |x| {
+                let (once, thrice) = (radiance(x, DVec3::ONE), radiance(x, DVec3::splat(3.0)));
+                (thrice - 3.0 * once).abs().max_element() / thrice.abs().max_element().max(f64::MIN_POSITIVE)
+            }),
+        ),
+        claim(
+            "red and green under blue light",
+            0.0,
+            Box::new(move |x| {
+                let seen = radiance(x, DVec3::Z);
+                seen.x.abs().max(seen.y.abs())
+            }),
+        ),
+        claim(
+            "radiance below 0",
+            0.0,
+            Box::new(move |x| {
+                let seen = radiance(x, DVec3::ONE);
+                // `min_element` would let NaN pass for its neighbour.
+                if seen.is_finite() { (-seen.min_element()).max(0.0) } else { f64::NAN }
+            }),
+        ),
+    ]
+}

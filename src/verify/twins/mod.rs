@@ -1,0 +1,40 @@
+//! The judges of the shader library, one file a GLSL file.
+
+mod albedo;
+mod color;
+mod coverage;
+mod direction;
+mod ggx;
+mod hash;
+mod light;
+mod lock;
+mod standard;
+mod strand;
+mod sway;
+mod tonemap;
+mod uv;
+
+use super::twin::Twin;
+
+/// Every twin, by file.
+pub fn twins() -> impl Iterator<Item = &'static Twin> {
+    let files: [&'static [Twin]; 13] = [
+        albedo::TWINS,
+        color::TWINS,
+        coverage::TWINS,
+        direction::TWINS,
+        ggx::TWINS,
+        hash::TWINS,
+        light::TWINS,
+        lock::TWINS,
+        standard::TWINS,
+        strand::TWINS,
+        sway::TWINS,
+        tonemap::TWINS,
+        uv::TWINS,
+    ];
+    files.into_iter().flatten()
+}
+
+/// One unit in the last place, relative.
+const ULP: f64 = f32::EPSILON as f64;
