@@ -89,7 +89,8 @@ impl Integrator {
 }
 
 /// The damped oscillator solved for a root at `root` that moves at `speed`: it trails by 2 zeta speed / w, and around
-/// that the motion is free.
+/// that the motion is free. In one dimension, so that its time compares with that of the other steps; a test holds it to
+/// the twin of the shader, [`crate::material::reference::sway`].
 fn exact(strand: &Strand, [x, v]: [f64; 2], root: f64, speed: f64, dt_s: f64) -> [f64; 2] {
     let (w, decay) = (strand.stiffness_rad_s, strand.damping * strand.stiffness_rad_s);
     let trail = 2.0 * strand.damping * speed / w;
@@ -172,7 +173,9 @@ pub fn time_ms(integrator: Integrator, strand: &Strand, steps_hz: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::reference::sway::{self, State};
     use Integrator::{ExactHold, ExactLinear, ExplicitEuler, ImplicitEuler, SemiImplicitEuler};
+    use glam::DVec3;
 
     const SOFT: &Strand = &STRAND_KINDS[0];
     const STIFF: &Strand = &STRAND_KINDS[1];
@@ -184,6 +187,19 @@ mod tests {
         let half = exact(SOFT, [0.1, -1.0], root, speed, 0.1);
         let halves = exact(SOFT, half, root + 0.1 * speed, speed, 0.1);
         assert!(whole.iter().zip(halves).all(|(a, b)| (a - b).abs() < 1e-12), "{whole:?} {halves:?}");
+    }
+
+    #[test]
+    fn the_exact_step_is_that_of_the_shaders_twin() {
+        let (root, speed, dt_s) = (0.3, 2.0, 0.03);
+        for strand in [SOFT, STIFF] {
+            let [x, v] = exact(strand, [0.5, 1.0], root, speed, dt_s);
+            let state = State { lag: DVec3::X * (0.5 - root), velocity: DVec3::X };
+            let w = strand.stiffness_rad_s;
+            let twin = sway::step(state, DVec3::X * (speed * dt_s), dt_s, w * w, strand.damping);
+            assert!((x - (root + speed * dt_s) - twin.lag.x).abs() < 1e-12, "{x} {twin:?}");
+            assert!((v - twin.velocity.x).abs() < 1e-10, "{v} {twin:?}");
+        }
     }
 
     #[test]

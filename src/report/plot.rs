@@ -103,7 +103,8 @@ fn draw(svg: &mut String, feature: &Feature, camera: &str, clock: Clock) -> Resu
             .map_err(|error| say(&error))?;
         let front = shown.iter().filter(|point| point.is_on_front);
         chart.draw_series(front.map(|point| Circle::new(at(point), 7, BLACK))).map_err(|error| say(&error))?;
-        let text = |point: &&Point| Text::new(format!(" {}", point.knob.1), at(point), ("sans-serif", 12));
+        let setting = |point: &Point| Text::new(point.knob.1.to_string(), (8, -13), ("sans-serif", 12));
+        let text = |point: &&Point| EmptyElement::at(at(point)) + setting(point);
         chart.draw_series(shown.iter().map(text)).map_err(|error| say(&error))?;
     }
     root.present().map_err(|error| say(&error))
