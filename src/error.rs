@@ -8,6 +8,8 @@ use crate::oracle::OracleError;
 #[cfg(feature = "measure")]
 use crate::profile::ProfileError;
 use crate::render::RenderError;
+#[cfg(feature = "measure")]
+use crate::report::ReportError;
 use crate::scene::SceneError;
 #[cfg(feature = "measure")]
 use crate::verify::VerifyError;
@@ -31,6 +33,10 @@ pub enum Error {
     /// A picture cannot be made or written.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A report cannot be made or written.
+    #[cfg(feature = "measure")]
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// The shader functions cannot be judged.
     #[cfg(feature = "measure")]
     #[error(transparent)]

@@ -11,6 +11,7 @@ mod presets;
 mod profile;
 mod quality;
 mod render;
+mod report;
 mod scene;
 mod sequence;
 mod values;
@@ -37,6 +38,8 @@ enum Command {
     Render(Box<render::RenderArguments>),
     /// Says what a frame will do: passes, pipelines, textures, memory, and what is left out and why.
     Inspect(Box<inspect::InspectArguments>),
+    /// Measures error against run time, and writes tables, plots and one page.
+    Report(report::ReportArguments),
     /// Evaluates every shader function on the device and compares it with its double-precision twin.
     Verify(verify::VerifyArguments),
     /// Measures a frame: times, fragments and memory.
@@ -65,6 +68,7 @@ fn parse_and_run() -> ExitCode {
         Ok(Arguments { command: Some(command) }) => match command {
             Command::Render(arguments) => render::run(&arguments),
             Command::Inspect(arguments) => inspect::run(&arguments),
+            Command::Report(arguments) => report::run(&arguments),
             Command::Verify(arguments) => verify::run(&arguments),
             Command::Profile(arguments) => profile::run(&arguments),
             Command::Devices(arguments) => devices::run(&arguments),

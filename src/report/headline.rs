@@ -1,0 +1,91 @@
+//! The three figures that sum a report up.
+
+use super::View;
+use super::feature::{Clock, spread};
+use super::question::{CLASSIC_LAYERS, Method, Question};
+use super::statistics::{Reading, Spread, cost_at_error};
+use super::sweep::{Recipe, Sweep};
+use std::iter::once;
+
+/// Layers below and above of `layers_4x_cost`.
+const LAYERS_4X: [u32; 2] = [16, 64];
+
+/// The three figures; each is `None` where the sweep lacks its points, and the notes say why.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Headline {
+    /// Milliseconds of 20 classic draws over ours at the same relMSE, before the gallery's camera.
+    pub equal_error_speedup: Option<f64>,
+    /// Milliseconds of the default method with 64 layers over those with 16.
+    pub layers_4x_cost: Option<f64>,
+    /// Milliseconds of the whole default coat with its skin over those of its outer surface drawn once, opaque, with the
+    /// same fetches and lighting.
+    pub vs_one_layer: Option<f64>,
+    /// What a reader must know beside the figures.
+    pub notes: Vec<String>,
+}
+
+/// What the headline needs beside the questions.
+pub fn recipes(default_layers: u32) -> Vec<Recipe> {
+    let ours = Method::ours();
+    LAYERS_4X
+        .into_iter()
+        .chain(once(default_layers))
+        .map(|layers| Recipe::new(&ours, layers, View::Gallery))
+        .chain([
+            Recipe::new(&Method::classic_draws(), CLASSIC_LAYERS, View::Gallery),
+            Recipe::new(&ours, 1, View::OuterSurface),
+        ])
+        .collect()
+}
+
+impl Headline {
+    pub(super) fn new(questions: &[Question], sweep: &Sweep, clock: Clock, default_layers: u32) -> Self {
+        let ours = Method::ours();
+        let measured = |method: &Method, layers| sweep.measurements.get(&Recipe::new(method, layers, View::Gallery));
+        let ms = |layers| measured(&ours, layers).map(|measurement| spread(measurement, clock).median);
+        let mut notes = Vec::new();
+
+        let mut layers: Vec<u32> = questions.iter().flat_map(|question| question.layers.iter().copied()).collect();
+        layers.extend(LAYERS_4X.iter().chain(once(&default_layers)));
+        layers.sort_unstable();
+        layers.dedup();
+        let curve: Vec<[f64; 2]> = layers
+            .into_iter()
+            .filter_map(|layers| Some([ms(layers)?, measured(&ours, layers)?.error?.relmse]))
+            .collect();
+        let equal_error_speedup = measured(&Method::classic_draws(), CLASSIC_LAYERS).and_then(|classic| {
+            let (classic_ms, error) = (spread(classic, clock).median, classic.error?.relmse);
+            let ours_ms = match cost_at_error(&curve, error) {
+                Reading::At(ms) => ms,
+                Reading::AtMost(ms) => {
+                    notes.push(
+                        "speedup at equal error: our fewest layers are already better, so it is at least this".into(),
+                    );
+                    ms
+                }
+                Reading::Unreached => {
+                    notes.push("speedup at equal error: none of our points is as good as 20 classic draws".into());
+                    return None;
+                }
+            };
+            Some(classic_ms / ours_ms)
+        });
+
+        let layers_4x_cost = ms(LAYERS_4X[1]).zip(ms(LAYERS_4X[0])).map(|(many, few)| many / few);
+        let outer = sweep.measurements.get(&Recipe::new(&ours, 1, View::OuterSurface));
+        let vs_one_layer = ms(default_layers).zip(outer).map(|(whole, outer)| {
+            let one = outer.frames.iter().map(|frame| match clock {
+                Clock::Device => frame.coat.unwrap_or(frame.wall),
+                Clock::Wall => frame.wall,
+            });
+            whole / Spread::of(&one.collect::<Vec<_>>()).median
+        });
+        let finite = |figure: Option<f64>| figure.filter(|figure| figure.is_finite());
+        Self {
+            equal_error_speedup: finite(equal_error_speedup),
+            layers_4x_cost: finite(layers_4x_cost),
+            vs_one_layer: finite(vs_one_layer),
+            notes,
+        }
+    }
+}

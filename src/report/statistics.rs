@@ -1,0 +1,101 @@
+//! What many measurements say: medians and how sure they are, slopes, fronts, and readings between points.
+
+/// Resamples of a bootstrap: the ends of a 95 % interval are then good to about a hundredth of its rank.
+const RESAMPLES: usize = 1000;
+
+/// Times of one thing, measured several times.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spread {
+    /// Middle value.
+    pub median: f64,
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+    /// 95 % interval of the median (Efron 1979, "Bootstrap Methods: Another Look at the Jackknife", by percentiles).
+    pub interval: [f64; 2],
+}
+
+impl Spread {
+    /// Of at least one finite value; all zero without any. The same values give the same interval.
+    pub fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let (Some(&min), Some(&max)) = (sorted.first(), sorted.last()) else { return Self::default() };
+        let mut state = 1u64;
+        let mut medians: Vec<f64> = (0..RESAMPLES)
+            .map(|_| {
+                let mut resample: Vec<f64> = sorted.iter().map(|_| sorted[below(sorted.len(), &mut state)]).collect();
+                resample.sort_by(f64::total_cmp);
+                median(&resample)
+            })
+            .collect();
+        medians.sort_by(f64::total_cmp);
+        let interval = [0.025, 0.975].map(|share| medians[(share * (RESAMPLES - 1) as f64).round() as usize]);
+        Self { median: median(&sorted), min, max, interval }
+    }
+}
+
+fn median(sorted: &[f64]) -> f64 {
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+}
+
+/// A number in [0, count); xorshift64 (Marsaglia 2003, "Xorshift RNGs").
+fn below(count: usize, state: &mut u64) -> usize {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    ((*state >> 33) % count as u64) as usize
+}
+
+/// Slope of log y over log x by least squares; `None` with fewer than three points above 0, since two fit any line, or
+/// where x stands still.
+pub fn log_log_slope(points: &[[f64; 2]]) -> Option<f64> {
+    let logs: Vec<[f64; 2]> =
+        points.iter().filter(|point| point.iter().all(|v| *v > 0.0)).map(|point| point.map(f64::ln)).collect();
+    if logs.len() < 3 {
+        return None;
+    }
+    let mean = |axis: usize| logs.iter().map(|log| log[axis]).sum::<f64>() / logs.len() as f64;
+    let [x, y] = [mean(0), mean(1)];
+    let squares: f64 = logs.iter().map(|log| (log[0] - x).powi(2)).sum();
+    let products: f64 = logs.iter().map(|log| (log[0] - x) * (log[1] - y)).sum();
+    let slope = products / squares;
+    slope.is_finite().then_some(slope)
+}
+
+/// Which points (cost, error) no other one beats: none is at most as dear and as wrong, and less of one of them.
+pub fn pareto_front(points: &[[f64; 2]]) -> Vec<bool> {
+    let beats = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
+    points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
+}
+
+/// Where a curve of (cost, error) stands against an error that it should reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reading {
+    /// It costs that much.
+    At(f64),
+    /// Its cheapest point, which costs that much, is already better.
+    AtMost(f64),
+    /// No point is as good.
+    Unreached,
+}
+
+/// The least cost at which the straight lines between a curve's points, in log-log, reach an error; points in order of
+/// their knob.
+pub fn cost_at_error(curve: &[[f64; 2]], error: f64) -> Reading {
+    let Some(first) = curve.first() else { return Reading::Unreached };
+    if first[1] <= error {
+        return Reading::AtMost(first[0]);
+    }
+    for pair in curve.windows(2) {
+        let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
+        if y1 <= error {
+            // y1 may be 0, where a line in log-log has no other end: the point itself then counts.
+            let share = if y1 > 0.0 { (error / y0).ln() / (y1 / y0).ln() } else { 1.0 };
+            return Reading::At(x0 * (x1 / x0).powf(share));
+        }
+    }
+    Reading::Unreached
+}

@@ -1,0 +1,212 @@
+//! The measuring: references, one picture of every point for its error, then rounds over all points for their times.
+
+use super::case::{Cases, Stage, View};
+use super::metric::{self, PictureError, Radiance, change_error, picture_error};
+use super::question::Method;
+use super::{Effort, Progress, ReportError};
+use crate::gpu::Gpu;
+use crate::oracle::{self, OracleOptions};
+use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shells, Shot};
+use glam::DVec3;
+use std::collections::HashMap;
+use std::time::Instant;
+
+/// Rounds below which a median says nothing, whatever the time limit.
+const LEAST_ROUNDS: usize = 3;
+
+/// One point: equal recipes are measured once, whichever feature asks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Recipe {
+    /// Camera and scene.
+    pub view: View,
+    /// How shells are drawn.
+    pub shells: Shells,
+    /// Samples a pixel.
+    pub msaa: u32,
+    /// Shells.
+    pub layers: u32,
+}
+
+impl Recipe {
+    /// A method's point.
+    pub fn new(method: &Method, layers: u32, view: View) -> Self {
+        Self { view, shells: method.shells, msaa: method.msaa, layers }
+    }
+
+    /// Each frame of the view.
+    fn frames(&self, cases: &Cases, effort: &Effort) -> Vec<FrameOptions> {
+        let size = effort.size_of(self.view);
+        let options = FrameOptions {
+            size,
+            layers: Some(self.layers),
+            shells: self.shells,
+            msaa: self.msaa,
+            ..Default::default()
+        };
+        let cameras = cases.cameras(self.view, size[1]);
+        cameras.into_iter().map(|camera| FrameOptions { camera, ..options.clone() }).collect()
+    }
+}
+
+/// Times of one frame, milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameMs {
+    /// Opaque, fur and transparent passes by the device's timestamps; `None` without them.
+    pub passes: Option<f64>,
+    /// The coat's own passes: fur and transparent.
+    pub coat: Option<f64>,
+    /// The whole frame by the wall clock.
+    pub wall: f64,
+}
+
+impl FrameMs {
+    fn new(report: &FrameReport) -> Self {
+        let sum = |wanted: &[Pass]| {
+            let passes = report.passes.iter().filter(|pass| wanted.iter().any(|wanted| wanted.name() == pass.name));
+            passes.map(|pass| pass.gpu_ms).sum::<Option<f64>>()
+        };
+        let coat = [Pass::Fur, Pass::Transparent];
+        Self { passes: sum(&[Pass::Opaque, coat[0], coat[1]]), coat: sum(&coat), wall: report.frame_ms }
+    }
+}
+
+/// What was measured of a recipe.
+#[derive(Debug, Clone, Default)]
+pub struct Measurement {
+    /// Against the view's reference; `None` for a view without.
+    pub error: Option<PictureError>,
+    /// One of every round.
+    pub frames: Vec<FrameMs>,
+}
+
+/// Truth of a view.
+struct Reference {
+    frames: Vec<Radiance>,
+    /// relMSE that its own noise is worth.
+    noise: f64,
+    background: DVec3,
+}
+
+/// Everything measured.
+pub struct Sweep {
+    /// By recipe.
+    pub measurements: HashMap<Recipe, Measurement>,
+    /// relMSE of each reference's noise.
+    pub noise: HashMap<View, f64>,
+    /// Rounds of timing.
+    pub rounds: usize,
+}
+
+/// Measures recipes; each once, however often it is listed.
+pub fn sweep(
+    gpu: &Gpu,
+    cases: &Cases,
+    recipes: &[Recipe],
+    effort: &Effort,
+    progress: &mut Progress,
+) -> Result<Sweep, ReportError> {
+    let mut unique: Vec<Recipe> = Vec::new();
+    for recipe in recipes {
+        if !unique.contains(recipe) {
+            unique.push(*recipe);
+        }
+    }
+    let references = references(cases, &unique, effort, progress)?;
+
+    // A renderer keeps one scene on the device: one for each, or every frame of a round would upload it anew.
+    let mut renderers = HashMap::new();
+    let mut measurements = HashMap::new();
+    for (done, recipe) in unique.iter().enumerate() {
+        progress("errors", done, unique.len());
+        let renderer = renderer_of(&mut renderers, gpu, recipe.view.stage())?;
+        let error = error_of(renderer, cases, recipe, references.get(&recipe.view), effort)?;
+        measurements.insert(*recipe, Measurement { error, frames: Vec::new() });
+    }
+
+    let start = Instant::now();
+    let mut rounds = 0;
+    while rounds < effort.rounds {
+        let is_late = effort.time_limit.is_some_and(|limit| start.elapsed() > limit);
+        if rounds >= LEAST_ROUNDS && is_late {
+            break;
+        }
+        // There and back: a drift that is even in time falls on all points alike.
+        let order: Vec<&Recipe> = if rounds % 2 == 0 { unique.iter().collect() } else { unique.iter().rev().collect() };
+        for (done, recipe) in order.into_iter().enumerate() {
+            progress("times", rounds * unique.len() + done, effort.rounds * unique.len());
+            let renderer = renderer_of(&mut renderers, gpu, recipe.view.stage())?;
+            let options = &recipe.frames(cases, effort)[0];
+            let (_, report) = renderer.render_reported(cases.scene(recipe.view.stage()), options, false)?;
+            measurements.entry(*recipe).or_default().frames.push(FrameMs::new(&report));
+        }
+        rounds += 1;
+    }
+    let noise = references.iter().map(|(view, reference)| (*view, reference.noise)).collect();
+    Ok(Sweep { measurements, noise, rounds })
+}
+
+fn renderer_of<'a>(
+    renderers: &'a mut HashMap<Stage, Renderer>,
+    gpu: &Gpu,
+    stage: Stage,
+) -> Result<&'a mut Renderer, ReportError> {
+    Ok(match renderers.entry(stage) {
+        std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
+        std::collections::hash_map::Entry::Vacant(entry) => entry.insert(Renderer::with_gpu(gpu.clone())?),
+    })
+}
+
+fn references(
+    cases: &Cases,
+    recipes: &[Recipe],
+    effort: &Effort,
+    progress: &mut Progress,
+) -> Result<HashMap<View, Reference>, ReportError> {
+    let mut references = HashMap::new();
+    let asked: Vec<&Recipe> =
+        View::ALL.iter().filter_map(|view| recipes.iter().find(|recipe| recipe.view == *view)).collect();
+    for (done, recipe) in asked.iter().enumerate() {
+        progress("references", done, asked.len());
+        let scene = cases.scene(recipe.view.stage());
+        let (mut frames, mut noise, mut background) = (Vec::new(), 0.0, DVec3::ZERO);
+        for (index, options) in recipe.frames(cases, effort).iter().enumerate() {
+            let shot = Shot::new(scene, options)?;
+            let (size, samples) = (options.size, effort.reference_samples);
+            // Frames of one view are independent: what they share would hide in the change between them.
+            let oracle_options = OracleOptions { size, samples, seed: index as u32 };
+            let scene_index = scene.asset().default_scene;
+            let picture =
+                oracle::render(scene, scene_index, &shot.pose, &shot.camera, &shot.lighting, None, &oracle_options)?;
+            background = shot.lighting.ambient_radiance.as_dvec3();
+            let frame = Radiance { size, pixels: picture.radiance };
+            // The noise of a difference is that of both.
+            noise += metric::noise(&frame, &picture.variance);
+            frames.push(frame);
+        }
+        references.insert(recipe.view, Reference { frames, noise, background });
+    }
+    Ok(references)
+}
+
+fn error_of(
+    renderer: &mut Renderer,
+    cases: &Cases,
+    recipe: &Recipe,
+    reference: Option<&Reference>,
+    effort: &Effort,
+) -> Result<Option<PictureError>, ReportError> {
+    let mut frames = Vec::new();
+    for options in recipe.frames(cases, effort) {
+        let (picture, _) = renderer.render_reported(cases.scene(recipe.view.stage()), &options, true)?;
+        frames.push(Radiance {
+            size: picture.size,
+            pixels: picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect(),
+        });
+    }
+    let Some(reference) = reference else { return Ok(None) };
+    Ok(match (&frames[..], &reference.frames[..]) {
+        ([frame], [truth]) => Some(picture_error(frame, truth, reference.background)),
+        ([first, second], [truth, next]) => Some(change_error([first, second], [truth, next], reference.background)),
+        _ => None,
+    })
+}
