@@ -102,8 +102,8 @@ impl Question {
                 "fur alpha",
                 vec![
                     Method { name: "correlated (default)", ..ours },
-                    Method::ours_but("independent", |m| m.shells.alpha = ShellAlpha::Independent),
-                    Method::ours_but("step", |m| m.shells.alpha = ShellAlpha::Step),
+                    Method::ours_but("slab layers, independent alpha", |m| m.shells.alpha = ShellAlpha::Independent),
+                    Method::ours_but("slab layers, step alpha", |m| m.shells.alpha = ShellAlpha::Step),
                 ],
                 &[View::Far, View::Moving],
             ),
@@ -111,8 +111,8 @@ impl Question {
                 "fur order",
                 vec![
                     Method { name: "outermost first (default)", ..ours },
-                    Method::ours_but("innermost first", |m| m.shells.order = ShellOrder::InnerFirst),
-                    Method::ours_but("blended from the inside", |m| m.shells.order = ShellOrder::Blended),
+                    Method::ours_but("slab layers, innermost first", |m| m.shells.order = ShellOrder::InnerFirst),
+                    Method::ours_but("slab layers, blended from the inside", |m| m.shells.order = ShellOrder::Blended),
                 ],
                 &[View::Gallery],
             ),
@@ -120,14 +120,19 @@ impl Question {
                 "fur submission",
                 vec![
                     Method { name: "one instanced draw (default)", ..ours },
-                    Method::ours_but("a draw a layer", |m| m.shells.submission = ShellSubmission::Draws),
-                    Method::ours_but("duplicated vertices", |m| m.shells.submission = ShellSubmission::Duplicated),
+                    Method::ours_but("slab layers, a draw a layer", |m| m.shells.submission = ShellSubmission::Draws),
+                    Method::ours_but("slab layers, duplicated vertices", |m| {
+                        m.shells.submission = ShellSubmission::Duplicated
+                    }),
                 ],
                 &[View::Gallery],
             ),
             question(
                 "msaa",
-                vec![Method { name: "4 samples (default)", ..ours }, Method::ours_but("1 sample", |m| m.msaa = 1)],
+                vec![
+                    Method { name: "4 samples (default)", ..ours },
+                    Method::ours_but("slab layers, 1 sample", |m| m.msaa = 1),
+                ],
                 &[View::Gallery, View::Moving],
             ),
         ]
