@@ -55,7 +55,7 @@ fn a_look_sets_what_it_says() {
     let fur = materials[0].fur.as_ref().unwrap();
     assert_eq!(fur.length, Length::Metres(0.03));
     assert_eq!(fur.shape, Shape::Paraboloid);
-    assert_eq!(fur.layers, 24, "from the preset");
+    assert_eq!(fur.layers, 8, "from the preset");
     assert_eq!(fur.roughness, 0.4);
     assert_eq!(fur.comb, Vec2::new(0.5, -0.5));
     assert!((fur.root_color - Vec3::new(1.0, 0.215_860_5, 0.0)).abs().max_element() < 1e-6, "{}", fur.root_color);

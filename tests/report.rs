@@ -210,7 +210,7 @@ fn check_json(json: &Value) {
         }
     }
     assert_eq!(features[0]["points"].as_array().unwrap().len(), 2 * (3 + 3), "classic methods have 20 layers, too");
-    // 16, 64 and the coat's own layers are measured for the headline whatever the questions ask for.
+    // 8, 32 and the coat's own layers are measured for the headline whatever the questions ask for.
     let headline = json["headline"].as_object().unwrap();
     let keys: Vec<&str> = headline.keys().map(String::as_str).collect();
     assert_eq!(keys, ["fur_equal_error_speedup", "fur_layers_4x_cost", "fur_vs_one_layer"]);

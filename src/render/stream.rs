@@ -49,7 +49,7 @@ impl Stream {
         }
     }
 
-    /// Offset in [`ABSENT`] of the value that stands in where a primitive lacks the stream, bytes.
+    /// Offset in `ABSENT` of the value that stands in where a primitive lacks the stream, bytes.
     pub fn absent_offset(self) -> u64 {
         if self == Self::Color { 16 } else { 0 }
     }

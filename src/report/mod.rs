@@ -100,9 +100,9 @@ impl Effort {
         Self {
             size: [256, 144],
             swatch_size: [96, 54],
-            layers: vec![4, 8, 16, 32, 64],
+            layers: vec![1, 2, 4, 8, 16, 32],
             layers_of_others: vec![4, 8, 16],
-            reference_samples: 32,
+            reference_samples: 24,
             rounds: 9,
             time_limit: Some(Duration::from_secs(30)),
         }

@@ -8,7 +8,7 @@ use vair::material::{Blend, Fur};
 use vair::render::{FrameOptions, FrameReport, RenderError, ShellOrder, ShellSubmission, Shells, Shot};
 use vair::scene::Scene;
 
-const LAYERS: u64 = 20;
+const LAYERS: u64 = 8;
 /// Of the cube.
 const VERTICES: u64 = 24;
 /// Positions and normals of the skin, shell directions of the coat.
