@@ -57,7 +57,13 @@
 //! | [`material`] | parameters declared once, looks, presets, and double-precision twins of the shading |
 //! | [`scene`] | pose, instances, lights, camera; pure functions |
 //! | [`render`] | what one frame needs, and the frame |
-//! | `profile` | where a frame's time, fragments and memory go (feature `measure`) |
+//! | `oracle` | what shells approach: coats ray-cast in double precision |
+//! | `verify` | every shader function against its twin on the device; what the formulas promise |
+//! | `profile` | where a frame's time, fragments and memory go |
+//! | `report` | error against run time |
+//!
+//! The last four judge the others. They come with the feature `measure`, which the program has and an embedding engine
+//! leaves out.
 //!
 //! # A frame
 //! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists

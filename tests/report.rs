@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 use vair::gpu::{Gpu, GpuOptions};
 use vair::report::metric::{Radiance, change_error, noise, picture_error};
-use vair::report::statistics::{Reading, Spread, cost_at_error, log_log_slope, pareto_front};
+use vair::report::statistics::{Spread, log_log_slope, pareto_front};
 use vair::report::{self, Effort, Method, Question, Report, ReportError, View};
 
 const SIZE: [u32; 2] = [16, 16];
@@ -88,17 +88,6 @@ fn the_front_holds_what_nothing_beats() {
     let points = [[1.0, 5.0], [2.0, 3.0], [3.0, 3.0], [4.0, 1.0], [5.0, 2.0], [1.0, 5.0]];
     assert_eq!(pareto_front(&points), [true, true, false, true, false, true]);
     assert!(pareto_front(&[]).is_empty());
-}
-
-#[test]
-fn costs_are_read_between_points_in_log_log() {
-    let curve = [[1.0, 1.0], [10.0, 0.1], [20.0, 0.0]];
-    let Reading::At(cost) = cost_at_error(&curve, 0.1f64.sqrt()) else { panic!("between the first two") };
-    assert!((cost - 10f64.sqrt()).abs() < 1e-12, "{cost}");
-    assert_eq!(cost_at_error(&curve, 0.05), Reading::At(20.0));
-    assert_eq!(cost_at_error(&curve, 2.0), Reading::AtMost(1.0));
-    assert_eq!(cost_at_error(&curve[..2], 0.05), Reading::Unreached);
-    assert_eq!(cost_at_error(&[], 1.0), Reading::Unreached);
 }
 
 #[test]

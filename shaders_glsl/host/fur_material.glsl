@@ -25,7 +25,7 @@ struct FurUniforms {
     float roughness;           // longitudinal roughness of a strand, in [0, 1]
     float height_strength;     // how much the height map shortens strands, in [0, 1]
     float clump;               // strands gather towards their lock's middle, in [0, 1]
-    float curl;                // locks twist by one turn from root to tip at 1
+    float curl;                // radius of a coil at the tip, in strand spacings, in [0, 1]
     float projection_scale;    // UV units per rest-pose unit where the mesh has no UVs
     uint layers;               // number of shells
     float _reserved_0;

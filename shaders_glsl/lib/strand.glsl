@@ -10,9 +10,9 @@ const float STRAND_JITTER = 0.5;
 // per spacing squared of surface. Half a cell is also as far as the eight nearest cells are sure to tell.
 const float STRAND_REACH = 0.5;
 // Longest half of a view ray's way through a slab (in cells) along which strands are looked up one by one.
-const float STRAND_WALK = 2.0;
+const float STRAND_WALK = 3.0;
 // Faces of cells that a way of twice that length can cross, in any direction.
-const int STRAND_FACES = 8;
+const int STRAND_FACES = 14;
 
 // What a shell stands for: the part of the view ray between its slab's two boundaries, as it moves relative to the
 // strands. A place on the path is a number in [-1, 1], from the slab's lower boundary to its upper one.
@@ -52,7 +52,8 @@ StrandHit strand_meet(StrandPath path, ivec3 cell) {
     vec3 across = offset - height * path.normal;
     float half_length = length(path.half_segment);
     float along = half_length > 1e-6 ? dot(across, path.half_segment) / half_length : 0.0;
-    float aside = sqrt(max(dot(across, across) - along * along, 0.0));
+    // The difference of the squares would cancel far along the path.
+    float aside = length(half_length > 1e-6 ? across - along / half_length * path.half_segment : across);
     // The profile falls by full_length / radius a cell; where it falls more slowly than the threshold does, the lower
     // end is best.
     float fall = path.threshold_rise * radius;

@@ -61,15 +61,14 @@ float threshold_at(float height) {
     return strand_threshold(height, fur.cutoff_start, fur.cutoff_end, PARABOLOID) + 0.5 * fur.taper * height * height;
 }
 
-// A vector of the shell's surface, given by how far it goes along the pixel's two steps.
+// A vector of the shell's surface, given by how far it goes along the pixel's two steps. On a surface seen edge-on these
+// are nearly parallel, and rounding would decide; a little damping (Tikhonov) then keeps the shortest answer.
 vec2 in_pixel_steps(vec3 vector, vec3 step_x, vec3 step_y) {
-    float xx = dot(step_x, step_x);
+    float xx = dot(step_x, step_x) * 1.0001 + 1e-30;
     float xy = dot(step_x, step_y);
-    float yy = dot(step_y, step_y);
-    float determinant = xx * yy - xy * xy;
-    if (determinant <= 1e-6 * xx * yy) { return vec2(0.0); }
+    float yy = dot(step_y, step_y) * 1.0001 + 1e-30;
     vec2 right = vec2(dot(vector, step_x), dot(vector, step_y));
-    return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / determinant;
+    return vec2(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / (xx * yy - xy * xy);
 }
 
 void main() {
@@ -85,18 +84,22 @@ void main() {
     // it: at `share` of the slab's depth.
     vec3 step_x = dFdx(position_in_world);
     vec3 step_y = dFdy(position_in_world);
-    vec3 aside = to_eye - cosine_to_eye * normal;
+    // The shell as it was drawn: its facets, not the smooth normal, tell where the ray comes in and how far it goes.
+    vec3 facet = direction_or(cross(step_x, step_y), normal);
+    facet = dot(facet, normal) < 0.0 ? -1.0 * facet : facet;
+    float facing = dot(facet, to_eye);
+    vec3 aside = to_eye - facing * facet;
     vec2 aside_in_steps = in_pixel_steps(aside, step_x, step_y);
     float bend = dot(aside, aside_in_steps.x * dFdx(normal) + aside_in_steps.y * dFdy(normal));
     float slab_height = 1.0 / float(fur.layers);
     float slab_m = height_and_length.y * slab_height;
-    float depth_m = slab_m * max(dot(strand, normal), 0.1);
-    float cosine = max(abs(cosine_to_eye), 0.02);
+    float depth_m = slab_m * max(dot(strand, facet), 0.1);
+    float cosine = max(abs(facing), 0.02);
     float inside = cosine * cosine - 2.0 * bend * depth_m;
     float reach_m = inside > 0.0 ? 2.0 * depth_m / (cosine + sqrt(inside)) : cosine / bend;
     float share = inside > 0.0 ? 1.0 : cosine * cosine / (2.0 * bend * depth_m);
     // The same way relative to the strands, which lean.
-    vec3 way_in_world = (cosine_to_eye < 0.0 ? reach_m : -reach_m) * to_eye + share * slab_m * strand;
+    vec3 way_in_world = (facing < 0.0 ? reach_m : -reach_m) * to_eye + share * slab_m * strand;
     vec2 way_in_steps = in_pixel_steps(way_in_world, step_x, step_y);
 
     uint layer = uint(height * float(fur.layers) - 0.25);
@@ -112,6 +115,7 @@ void main() {
     float lower = threshold_at(lower_height);
     vec3 rest_x = dFdx(root_in_rest);
     vec3 rest_y = dFdy(root_in_rest);
+    vec3 turn_in_rest = way_in_steps.x * dFdx(direction_in_rest) + way_in_steps.y * dFdy(direction_in_rest);
     // The narrower side of the pixel: the wider one, at grazing angles, runs along the slab's segment.
     float pixel_in_rest = sqrt(min(dot(rest_x, rest_x), dot(rest_y, rest_y)));
 #ifdef MAPS
@@ -131,7 +135,7 @@ void main() {
     float slope;
     // Where on the way, from -1 at its lower end to 1, the ray meets what it sees.
     float place = 0.0;
-    float entry = cosine_to_eye < 0.0 ? -1.0 : 1.0;
+    float entry = facing < 0.0 ? -1.0 : 1.0;
 #ifdef MAPS
     if (HAS_DISTRIBUTION_MAP) {
         vec2 map_uv = uv_transformed(fur.distribution_transform, uv_sets.xy, uv_sets.zw);
@@ -149,35 +153,42 @@ void main() {
         }
         // A map is 0 between strands, however far they are: the edge must end there.
         slope = min(fwidth(margin), lower + upper);
-        opacity = strand_opacity(margin, slope, margin >= 0.0 ? 1.0 : 0.0);
+        float met = margin >= 0.0 ? 1.0 : 0.0;
+        opacity = ALPHA == 2u ? met : strand_opacity(margin, slope, met);
         own_random = hash_cell(ivec3(floor(map_uv * 64.0), 0)).x;
     } else
 #endif
     {
         float cells_per_unit = 1.0 / fur.strand_spacing;
+        vec3 rest_normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
+        vec3 start = root_in_rest * cells_per_unit;
         vec3 way = (way_in_steps.x * rest_x + way_in_steps.y * rest_y) * cells_per_unit;
+        if (HAS_LOCKS) {
+            Lock lock = lock_at(start, rest_normal);
+            bool is_point = SAMPLING == 1u;
+            vec3 up = lock_way_to_root(lock.from_middle, lock.random, rest_normal,
+                                       is_point ? height : upper_height, fur.clump, fur.curl);
+            vec3 down = lock_way_to_root(lock.from_middle + way, lock.random, rest_normal,
+                                         is_point ? height : lower_height, fur.clump, fur.curl);
+            start += up;
+            way += down - up;
+        }
         float way_length = length(way);
         float walked = min(way_length, 2.0 * STRAND_WALK);
         float walked_share = way_length > 0.0 ? walked / way_length : 1.0;
         lower = mix(upper, lower, walked_share);
         lower_height = mix(upper_height, lower_height, walked_share);
+        way *= walked_share;
+        // The surface bends away under the ray: the path is straight, and touches it, at its middle.
+        vec3 turn = walked_share * turn_in_rest;
         StrandPath path;
-        path.normal = direction_or(direction_in_rest, vec3(0.0, 1.0, 0.0));
+        path.normal = direction_or(rest_normal + 0.5 * turn, rest_normal);
         path.radius = fur.strand_radius;
         path.entry = entry;
-        path.half_segment = -0.5 * walked_share * way;
-        path.middle = root_in_rest * cells_per_unit - path.half_segment;
-        path.threshold = 0.5 * (lower + upper);
+        path.half_segment = -0.5 * way;
+        path.middle = start + 0.5 * way - 0.125 * dot(turn, way) * rest_normal;
+        path.threshold = SAMPLING == 1u ? threshold_at(height) : 0.5 * (lower + upper);
         path.threshold_rise = SAMPLING == 1u ? 0.0 : 0.5 * (upper - lower);
-        if (HAS_LOCKS) {
-            Lock lock = lock_at(path.middle, path.normal);
-            vec3 down = lock_way_to_root(lock.from_middle - path.half_segment, lock.random, path.normal, lower_height,
-                                         fur.clump, fur.curl);
-            vec3 up = lock_way_to_root(lock.from_middle + path.half_segment, lock.random, path.normal, upper_height,
-                                       fur.clump, fur.curl);
-            path.middle += 0.5 * (up + down);
-            if (SAMPLING != 1u) { path.half_segment += 0.5 * (up - down); }
-        }
         slope = pixel_in_rest * cells_per_unit / fur.strand_radius;
         // Without edges as wide as a pixel, a strand is met or it is not.
         path.enough = ALPHA == 2u ? 0.0 : 0.5 * slope;
@@ -194,9 +205,11 @@ void main() {
         opacity = ALPHA == 2u ? (hit.margin >= 0.0 ? 1.0 : 0.0) : strand_opacity(hit.margin, slope, mean);
         // Strands along the rest of a grazing ray: what they hide is known, if not where they stand.
         float rest = strand_slab_opacity(0.0, width, way_length - walked);
-        opacity += (1.0 - opacity) * rest * (1.0 - strand_unresolved(slope));
+        if (ALPHA != 2u) { opacity += (1.0 - opacity) * rest * (1.0 - strand_unresolved(slope)); }
     }
     height = mix(lower_height, upper_height, 0.5 + 0.5 * place);
+    // Where strands have no length there are none: all shells lie on the skin.
+    if (height_and_length.y <= 0.0) { opacity = 0.0; }
     // Each factor lies in [0, 1], so their product does.
     opacity *= (1.0 - fur.tip_fade * height) * mix(1.0, clamp(cosine_to_eye, 0.0, 1.0), fur.edge_fade);
 

@@ -42,9 +42,9 @@ pub fn milliseconds(value: f64) -> Value {
 }
 
 /// Fails when a file of that name could not be written, so that nobody waits for a picture in vain.
-pub fn check_writable(path: &Path) -> Result<()> {
+pub fn check_writable(path: &Path, example: &str) -> Result<()> {
     if path.is_dir() {
-        bail!("{}: is a folder; name a file in it, such as {}", path.display(), path.join("vair.png").display());
+        bail!("{}: is a folder; name a file in it, such as {}", path.display(), path.join(example).display());
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {

@@ -38,7 +38,7 @@ pub struct ProfileArguments {
 
 pub fn run(arguments: &ProfileArguments) -> Result<()> {
     if let Some(path) = &arguments.trace {
-        output::check_writable(path)?;
+        output::check_writable(path, "trace.json")?;
     }
     let scene = arguments.scene.load()?;
     let options = arguments.scene.frame_options(&scene, false)?;

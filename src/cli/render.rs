@@ -65,7 +65,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         bail!("--shard: no frame of this sequence is in that part; use fewer parts than frames");
     };
     if !to_stdout {
-        output::check_writable(&first.path)?;
+        output::check_writable(&first.path, "vair.png")?;
     }
 
     let start = Instant::now();
@@ -108,6 +108,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     progress.finish_and_clear();
     let Some((path, options, mut report)) = last else { bail!("no frame was asked for") };
     let first_ms = times.frames_ms[0];
+    // The first frame uploads and compiles: it is told apart.
+    times.drop_first();
 
     // The picture's own frame was the warm-up.
     if let Some(count) = arguments.bench {
@@ -121,7 +123,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let info = renderer.gpu().info().clone();
     let host_peak_bytes = host_peak_bytes();
     // Last: counting takes pipelines and memory of its own.
-    let fragments = match arguments.json && info.fragment_stores {
+    let fragments = match arguments.json && renderer.can_count_fragments(&options) {
         true => renderer.count_fragments(&scene, &options)?,
         false => Vec::new(),
     };
@@ -207,6 +209,13 @@ impl FrameTimes {
         }
     }
 
+    /// Where there are others.
+    fn drop_first(&mut self) {
+        for times in self.passes_ms.values_mut().chain([&mut self.frames_ms]).filter(|times| times.len() > 1) {
+            times.remove(0);
+        }
+    }
+
     fn of_pass(&self, name: &str) -> Option<Spread> {
         Spread::of(self.passes_ms.get(name)?)
     }
@@ -237,7 +246,7 @@ fn summary(rendered: &Rendered) -> Value {
             "name": pass.name, "gpu_ms": gpu_ms(|spread| spread.median), "gpu_ms_min": gpu_ms(|spread| spread.min),
             "gpu_ms_max": gpu_ms(|spread| spread.max), "gpu_ms_count": spread.map_or(0, |spread| spread.count),
             "draws": pass.draws, "instances": pass.instances, "triangles": pass.triangles,
-            "fragments": fragments.map(|counted| counted.shaded),
+            "fragments": fragments.map(|counted| counted.shaded).or((pass.triangles == 0).then_some(0)),
         })
     });
     let fur = report.fur.iter().map(|coat| {

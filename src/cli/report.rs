@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use vair::gpu::{Gpu, GpuOptions};
-use vair::report::{self, Effort, Question, Report};
+use vair::report::{self, Effort, LAYERS_4X, Question, Report};
 
 #[derive(Debug, Args)]
 pub struct ReportArguments {
@@ -77,7 +77,8 @@ fn as_text(report: &Report, arguments: &ReportArguments) -> String {
     let headline = &report.headline;
     let mut text = format!("{}\n", arguments.out.join("index.html").display());
     text += &format!("speed at the error of 20 classic draws: {} times\n", figure(headline.equal_error_speedup));
-    text += &format!("64 layers over 16: {} times the time\n", figure(headline.layers_4x_cost));
+    let [few, many] = LAYERS_4X;
+    text += &format!("{many} layers over {few}: {} times the time\n", figure(headline.layers_4x_cost));
     text += &format!("whole coat over one opaque layer: {} times the time\n", figure(headline.vs_one_layer));
     for note in &headline.notes {
         text += &format!("{note}\n");

@@ -10,7 +10,7 @@ use vair::verify::{self, FunctionReport, Report, Worst};
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
     /// Names the functions, and evaluates nothing.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["device", "validate"])]
     list: bool,
     /// A function, or those whose names contain this.
     #[arg(long, value_name = "NAME")]
@@ -28,7 +28,7 @@ pub struct VerifyArguments {
 
 pub fn run(arguments: &VerifyArguments) -> Result<()> {
     if arguments.list {
-        return list(arguments.json);
+        return list(arguments);
     }
     let gpu = Gpu::new(&GpuOptions {
         device: arguments.device.clone(),
@@ -62,9 +62,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<()> {
     }
 }
 
-fn list(is_json: bool) -> Result<()> {
-    let names: Vec<_> = verify::twins().map(|twin| twin.name).collect();
-    if is_json {
+fn list(arguments: &VerifyArguments) -> Result<()> {
+    let names: Vec<_> = verify::chosen(arguments.only.as_deref())?.iter().map(|twin| twin.name).collect();
+    if arguments.json {
         return output::print_json(&json!({ "functions": names }));
     }
     output::print(&(names.join("\n") + "\n"))
@@ -132,11 +132,16 @@ fn function_as_json(function: &FunctionReport) -> Value {
         "name": function.name, "file": function.file, "samples": function.samples, "seeded": function.seeded,
         "max_rel": function.max_rel, "max_rel_seeded": function.max_rel_seeded, "p999_rel": function.p999_rel,
         "max_abs": function.max_abs, "of_limit": function.of_limit, "nonfinite": function.nonfinite,
-        "by_rule": function.by_rule, "missed": function.missed, "limit": function.limit.rel,
+        "by_rule": function.by_rule, "missed": function.missed, "missed_allowed": function.missed_allowed, "limit": function.limit.rel,
         "limit_abs": function.limit.abs, "pass": function.pass,
         "worst": function.worst.as_ref().map(|worst| json!({
-            "inputs": worst.inputs.iter().map(|(name, values)| ((*name).to_owned(), json!(values))).collect::<Map<_, _>>(),
+            "inputs": worst.inputs.iter().map(|(name, values)| ((*name).to_owned(), numbers(values))).collect::<Map<_, _>>(),
             "found": worst.found, "expected": worst.expected,
         })),
     })
+}
+
+/// Inputs may be what JSON has no number for.
+fn numbers(values: &[f64]) -> Value {
+    values.iter().map(|&value| if value.is_finite() { json!(value) } else { json!(value.to_string()) }).collect()
 }

@@ -136,7 +136,8 @@ impl Profile {
             frames.push(TimedFrame { start_ms, report });
         }
         let info = renderer.gpu().info().clone();
-        let fragments = if info.fragment_stores { renderer.count_fragments(scene, options)? } else { Vec::new() };
+        let fragments =
+            if renderer.can_count_fragments(options) { renderer.count_fragments(scene, options)? } else { Vec::new() };
         end(renderer, &mut validation_messages);
         Ok(Self::new(info, frames, &fragments, [cold, warm], validation_messages))
     }

@@ -42,6 +42,13 @@ struct PassCounter {
 }
 
 impl Renderer {
+    /// Whether the device can count the fragments of such a frame: its fragment shaders write memory, and one buffer holds
+    /// a depth a sample.
+    pub fn can_count_fragments(&self, options: &FrameOptions) -> bool {
+        let info = self.gpu.info();
+        info.fragment_stores && pixel_bytes(options) <= info.max_storage_bytes
+    }
+
     /// Counts the fragments of the frame that these options ask for, at their samples, without making a picture. The
     /// passes that draw come in order; tone mapping is one fragment a pixel by construction.
     ///
@@ -50,14 +57,15 @@ impl Renderer {
     /// `shaded` lies then between 1 a surface and `rasterized`; the other counts of opaque passes stay exact.
     ///
     /// # Errors
-    /// [`GpuError::Unsupported`] where fragment shaders cannot write memory, and those of [`Shot::new`] and the device.
+    /// [`GpuError::Unsupported`] where [`Self::can_count_fragments`] says no, and those of [`Shot::new`] and the device.
     pub fn count_fragments(
         &mut self,
         scene: &Scene,
         options: &FrameOptions,
     ) -> Result<Vec<PassFragments>, RenderError> {
-        if !self.gpu.info().fragment_stores {
-            let problem = "counting needs fragment shaders that write memory".to_owned();
+        if !self.can_count_fragments(options) {
+            let problem =
+                "counting needs fragment shaders that write memory, and room for every sample's depth".to_owned();
             return Err(GpuError::Unsupported { name: "fragment counts".to_owned(), problem }.into());
         }
         let mut shot = Shot::new(scene, options)?;
@@ -117,8 +125,7 @@ impl Renderer {
         let Some(spec) = shot.plan.pipelines.first() else { return Ok(Vec::new()) };
         let [width, height] = options.size.map(|side| side as usize);
         let mut upload = self.gpu.upload();
-        // For each pixel the depths of its samples, and the last pass that covered it.
-        let zeros = vec![0; width * height * (options.msaa as usize + 1) * size_of::<u32>()];
+        let zeros = vec![0; pixel_bytes(options) as usize];
         let pixels = self.filled(&mut upload, "fragment pixels", &zeros)?;
         let mut counters = Vec::new();
         for number in 1..=pass_count {
@@ -143,6 +150,12 @@ impl Renderer {
         upload.buffer(&buffer, 0, bytes);
         Ok(buffer)
     }
+}
+
+/// For each pixel the depths of its samples, and the last pass that covered it.
+fn pixel_bytes(options: &FrameOptions) -> u64 {
+    let pixels = options.size.iter().map(|side| u64::from(*side)).product::<u64>();
+    pixels * (u64::from(options.msaa) + 1) * size_of::<u32>() as u64
 }
 
 /// Rows together: their sums may not fit in 32 bits.

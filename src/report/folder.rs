@@ -13,8 +13,14 @@ const NAMES: [&str; 4] = ["report.json", "report.csv", "index.html", "plots"];
 /// [`ReportError::Foreign`], and [`ReportError::Write`] when it cannot be read or its parent is missing.
 pub fn check_folder(folder: &Path) -> Result<(), ReportError> {
     let failed = |source| ReportError::Write { path: folder.to_owned(), source };
+    // What is made there is renamed in the end: the folder's parent must let it.
+    tempfile::tempdir_in(parent(folder)).map(drop).map_err(failed)?;
     if !folder.exists() {
-        return fs::read_dir(parent(folder)).map(drop).map_err(failed);
+        return Ok(());
+    }
+    if folder.file_name().is_none() {
+        let source = std::io::Error::other("a folder that is named by dots cannot be replaced");
+        return Err(failed(source));
     }
     let entries = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
     let is_ours = |entry: &fs::DirEntry| NAMES.iter().any(|name| entry.file_name() == *name);

@@ -21,7 +21,7 @@ pub use case::View;
 pub use curve::Curve;
 pub use feature::{Clock, Feature, Point, Report};
 pub use folder::{check_folder, save};
-pub use headline::Headline;
+pub use headline::{Headline, LAYERS_4X};
 pub use question::{CLASSIC_LAYERS, Method, Question};
 
 use crate::gpu::Gpu;
@@ -113,7 +113,7 @@ impl Effort {
         Self {
             size: [512, 288],
             swatch_size: [256, 144],
-            layers: vec![4, 8, 16, 32, 64, 128, 256],
+            layers: vec![1, 2, 4, 8, 16, 32, 64, 128, 256],
             layers_of_others: vec![4, 8, 16, 32, 64, 128, 256],
             reference_samples: 256,
             rounds: 31,

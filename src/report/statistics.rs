@@ -70,32 +70,3 @@ pub fn pareto_front(points: &[[f64; 2]]) -> Vec<bool> {
     let beats = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
     points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
 }
-
-/// Where a curve of (cost, error) stands against an error that it should reach.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reading {
-    /// It costs that much.
-    At(f64),
-    /// Its cheapest point, which costs that much, is already better.
-    AtMost(f64),
-    /// No point is as good.
-    Unreached,
-}
-
-/// The least cost at which the straight lines between a curve's points, in log-log, reach an error; points in order of
-/// their knob.
-pub fn cost_at_error(curve: &[[f64; 2]], error: f64) -> Reading {
-    let Some(first) = curve.first() else { return Reading::Unreached };
-    if first[1] <= error {
-        return Reading::AtMost(first[0]);
-    }
-    for pair in curve.windows(2) {
-        let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
-        if y1 <= error {
-            // y1 may be 0, where a line in log-log has no other end: the point itself then counts.
-            let share = if y1 > 0.0 { (error / y0).ln() / (y1 / y0).ln() } else { 1.0 };
-            return Reading::At(x0 * (x1 / x0).powf(share));
-        }
-    }
-    Reading::Unreached
-}

@@ -37,6 +37,8 @@ pub struct FunctionReport {
     pub by_rule: usize,
     /// Samples that miss their limit.
     pub missed: usize,
+    /// How many may.
+    pub missed_allowed: usize,
     /// The limit.
     pub limit: Limit,
     /// All is finite, and no more samples miss the limit than the twin allows.
@@ -102,6 +104,7 @@ pub(super) fn judge(function: &Function, twin: &Twin, inputs: &Inputs, found: &[
         nonfinite,
         by_rule: count(|verdict| verdict.by_rule),
         missed,
+        missed_allowed: (twin.missed * verdicts.len() as f64) as usize,
         limit: twin.limit,
         pass: nonfinite == 0 && !verdicts.is_empty() && missed as f64 <= twin.missed * verdicts.len() as f64,
         worst: worst.map(|(index, _)| Worst {
@@ -160,7 +163,7 @@ fn against(limit: Limit, found: &[f64], expected: &[f64], growth: &[f64]) -> Ver
         if error == 0.0 {
             continue;
         }
-        let left = (error - growth - f64::from(f32::MIN_POSITIVE)).max(0.0);
+        let left = (error - f64::from(f32::MIN_POSITIVE)).max(0.0);
         let scale = expected.abs() + if limit.rel > 0.0 { limit.abs / limit.rel } else { 1.0 };
         verdict.relative = verdict.relative.max(if left == 0.0 { 0.0 } else { (left / scale).min(f64::MAX) });
         verdict.absolute = verdict.absolute.max(error);

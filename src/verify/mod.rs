@@ -97,8 +97,11 @@ pub fn unpaired() -> Vec<VerifyError> {
     without_twin.map(no_twin).chain(twins().filter_map(|twin| function_of(twin).err())).collect()
 }
 
-/// Twins whose names contain `only`; one alone where it is the whole name.
-fn chosen(only: Option<&str>) -> Result<Vec<&'static Twin>, VerifyError> {
+/// Twins whose names contain `only` (all, without); one alone where it is the whole name.
+///
+/// # Errors
+/// [`VerifyError::UnknownFunction`] where no name contains it.
+pub fn chosen(only: Option<&str>) -> Result<Vec<&'static Twin>, VerifyError> {
     let Some(only) = only else { return Ok(twins().collect()) };
     if let Some(twin) = twins().find(|twin| twin.name == only) {
         return Ok(vec![twin]);

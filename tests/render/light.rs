@@ -8,6 +8,7 @@ use glam::{DVec3, Vec3};
 use vair::asset::{LightKind, Material};
 use vair::material::reference::light::{cone, range_window};
 use vair::material::reference::standard::Surface;
+use vair::material::{Fur, Length};
 
 #[test]
 fn irradiance_follows_distance_range_and_cone() {
@@ -54,6 +55,34 @@ fn irradiance_follows_distance_range_and_cone() {
             let ends = !matches!(kind, LightKind::Point { range_m: None });
             assert_eq!(least == 0.0, ends, "the picture reaches beyond the light's end where it has one");
             all_hold(checks);
+        }
+    });
+}
+
+/// What light adds to a frame, channel by channel, over the ambient.
+#[test]
+fn frames_are_linear_in_light_and_dark_without() {
+    let scene = |intensity: Vec3| {
+        let mut stage = Stage::front(1.0);
+        let material = stage.material(Material { roughness: 0.6, ..plain() });
+        stage.object(quad(0.7, 0.7), material, at(Vec3::ZERO));
+        stage.light(LightKind::Directional, intensity, Vec3::Z, Vec3::new(0.3, 0.2, 1.0).normalize());
+        let mut scene = stage.scene();
+        scene.materials_mut()[material].fur = Some(Fur { length: Length::Metres(0.1), ..Fur::default() });
+        scene
+    };
+    headless(|device| {
+        let mut lit = |intensity| device.picture(&scene(intensity), &options([32, 32], 4)).radiance;
+        let (dark, once, twice, blue) =
+            (lit(Vec3::ZERO), lit(Vec3::splat(0.5)), lit(Vec3::ONE), lit(Vec3::new(0.0, 0.0, 0.5)));
+        let brightest = once.iter().zip(&dark).map(|(once, dark)| (once - dark).x).fold(0.0f32, f32::max);
+        assert!(brightest > 0.01, "the light is seen");
+        for index in 0..dark.len() {
+            let [added, doubled, of_blue] = [&once, &twice, &blue].map(|lit| (lit[index] - dark[index]).truncate());
+            // Three half floats were rounded.
+            let rounding = 3.0 * twice[index].max_element() / 1024.0;
+            assert!((doubled - 2.0 * added).abs().max_element() <= rounding, "{doubled} for twice {added}");
+            assert_eq!((of_blue.x, of_blue.y), (0.0, 0.0), "blue light adds blue alone");
         }
     });
 }

@@ -134,9 +134,18 @@ pub fn first(a: Hit, b: Hit, entry: f64) -> Hit {
 pub fn walk(path: &Path) -> Hit {
     let half_segment = path.half_segment - path.half_segment.dot(path.normal) * path.normal;
     let path = &Path { half_segment, ..*path };
-    let strands = around(path.middle, half_segment.length() + 0.5);
+    let strands = around(path.middle, half_segment.length() + 0.5).filter(|strand| is_near(path, strand));
     let hit = strands.fold(NONE, |hit, strand| first(hit, meet(path, &strand), path.entry));
     Hit { margin: hit.margin.min(path.enough), ..hit }
+}
+
+/// Whether a path comes within a cell of a strand that reaches the surface: what is farther away is missed by more than a strand's
+/// thickness.
+fn is_near(path: &Path, strand: &Strand) -> bool {
+    let (across, share) = strand.offset(path.middle, path.normal);
+    let squared = path.half_segment.length_squared();
+    let along = if squared > 0.0 { (across.dot(path.half_segment) / squared).clamp(-1.0, 1.0) } else { 0.0 };
+    share > 0.0 && (across - along * path.half_segment).length() < 1.0
 }
 
 /// Place in [-1, 1] of the maximum of a concave function.

@@ -12,18 +12,20 @@ pub(super) const PLACE: Domain = Domain::Uniform(-32.0, 32.0, &[-31.0, -0.5, 0.0
 /// Over the spacing of strands.
 const RADIUS: Domain = Domain::Uniform(0.02, 0.5, &[0.02, 0.5]);
 /// A component of half a view ray's segment, in cells: what is walked at most.
-const SEGMENT: Domain = Domain::Uniform(-1.15, 1.15, &[0.0, 1e-40, 1e-7, 1.15]);
+const SEGMENT: Domain = Domain::Uniform(-1.7, 1.7, &[0.0, 1e-40, 1e-7, 1.7]);
 /// Of a threshold, over half a slab.
-const RISE: Domain = Domain::Uniform(-0.2, 0.5, &[0.0, 1e-40, 0.5]);
+const RISE: Domain = Domain::Uniform(-0.2, 0.2, &[0.0, 1e-40, 0.2]);
+/// In the middle of a path: at both ends it is not negative.
+const THRESHOLD: Domain = Domain::Uniform(0.2, 1.2, &[0.2, 0.5, 1.0, 9.0]);
 const ENOUGH: Domain = Domain::Uniform(0.0, 1.0, &[1e-3, 0.25, 1.0]);
 const MARGIN: Domain = Domain::Uniform(-1.0, 1.0, &[-1e3, -1e-40, 0.0, 1.0]);
 const PLACE_ON_PATH: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1.0]);
 /// In the order of the shader's struct.
-const PATH: &[Domain] = &[PLACE, UNIT, SEGMENT, RISE, Domain::Direction, RADIUS, Domain::Sign, ENOUGH];
+const PATH: &[Domain] = &[PLACE, THRESHOLD, SEGMENT, RISE, Domain::Direction, RADIUS, Domain::Sign, ENOUGH];
 /// Cells around the place, so that strands are met.
 const PATH_AND_CELL: &[Domain] = &[
     Domain::Uniform(0.0, 2.0, &[0.0, 0.5, 1.0]),
-    UNIT,
+    THRESHOLD,
     SEGMENT,
     RISE,
     Domain::Direction,
@@ -32,9 +34,9 @@ const PATH_AND_CELL: &[Domain] = &[
     ENOUGH,
     Domain::Choice(&[0, 1]),
 ];
-/// Margins are known to 1e-4, since offsets of up to 4 cells keep 2^-22 and root radii are 0.02 or more; places, where the
-/// ray slants into a strand's side, to four times that.
-const WALK: f64 = 4e-4;
+/// Offsets of up to 6 cells keep 2^-22, and root radii are 0.02 or more: 1.2e-5 for a margin; places, where the ray slants
+/// into a strand's side, some times that.
+const WALK: f64 = 1e-4;
 
 fn path(given: &mut Given) -> Path {
     Path {
@@ -87,7 +89,6 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("strand_walk", PATH, |given| hit(strand::walk(&path(given))))
         .limit(2e-5, WALK)
         .rule(Rule::Stepped(4))
-        .missed(1e-3)
         .used(met),
     // Eight times log, which near 1 is off by up to 2^-21.
     Twin::new("strand_left", &[UNIT], |given| strand::left(given.number()).to_vec()).limit(2e-5, 8.0 / 2_097_152.0),

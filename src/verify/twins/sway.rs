@@ -62,8 +62,11 @@ pub(super) const TWINS: &[Twin] = &[
         vec![given.number().tan()]
     }),
     Twin::new("sway_under_damped", &[VECTOR, VECTOR, VECTOR, STEP_S, FREQUENCY, UNDER], one_branch)
+        .limit(0.0, 1e-12)
         .allowance(of_branch),
-    Twin::new("sway_over_damped", &[VECTOR, VECTOR, VECTOR, STEP_S, FREQUENCY, OVER], one_branch).allowance(of_branch),
+    Twin::new("sway_over_damped", &[VECTOR, VECTOR, VECTOR, STEP_S, FREQUENCY, OVER], one_branch)
+        .limit(0.0, 1e-12)
+        .allowance(of_branch),
     Twin::new("sway_is_finite", &[NUMBERS], |given| {
         let numbers = [given.number(), given.number(), given.number()];
         vec![f64::from(u8::from(numbers.iter().all(|number| number.is_finite())))]
@@ -73,6 +76,7 @@ pub(super) const TWINS: &[Twin] = &[
         let (state, moved) = (state(given), given.vec3());
         flat(sway::step(state, moved, given.number(), given.number(), given.number()))
     })
+    .limit(0.0, 1e-12)
     .allowance(of_step),
     Twin::new("sway_limited", &[VECTOR, VECTOR, VECTOR, REACH], |given| {
         flat(sway::limited(state(given), given.vec3(), given.number()))
