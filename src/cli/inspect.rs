@@ -60,7 +60,7 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
             "texture_bytes": plan.textures.iter().map(|texture| texture.bytes(scene.asset())).sum::<u64>(),
             "target_bytes": target_bytes(plan, options), "by_owner": plan.memory(scene, options),
         },
-        "left_out": plan.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
+        "left_out": output::left_out(&plan.left_out),
         "lint": scene.asset().warnings,
     })
 }

@@ -4,6 +4,7 @@
 //! error. A reader that closes standard output early ends the program without a complaint.
 
 mod cache;
+mod device;
 mod devices;
 mod inspect;
 mod output;

@@ -1,9 +1,12 @@
-//! What is printed, and the check that a picture can be written before it is made.
+//! What is printed, what the commands' JSON has in common, and the check that a file can be written before it is made.
 
 use anyhow::{Context, Result, bail};
-use serde_json::Value;
-use std::io::{ErrorKind, Write};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::{Value, json};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
+use vair::gpu::DeviceInfo;
+use vair::render::{CoatReport, LeftOut};
 
 /// Prints to standard output. A closed pipe is the reader's choice, not a failure.
 pub fn print(text: &str) -> Result<()> {
@@ -55,4 +58,37 @@ pub fn check_writable(path: &Path, example: &str) -> Result<()> {
         let reason = error.kind();
         anyhow::anyhow!("{}: {reason}; choose a folder that can be written", path.display())
     })
+}
+
+/// A bar on standard error, where that is a terminal and the bar `is_wanted`.
+pub fn progress(is_wanted: bool, template: &str) -> ProgressBar {
+    if !is_wanted || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// A device in JSON.
+pub fn device(info: &DeviceInfo) -> Value {
+    json!({ "name": info.name, "driver": info.driver, "api": info.api })
+}
+
+/// Coats in JSON.
+pub fn coats(coats: &[CoatReport]) -> Value {
+    let one = |coat: &CoatReport| {
+        json!({
+            "material": coat.material, "layers": coat.layers, "instances": coat.instances,
+            "vertices_stored": coat.vertices_stored,
+        })
+    };
+    coats.iter().map(one).collect()
+}
+
+/// What a frame does without, in JSON.
+pub fn left_out(list: &[LeftOut]) -> Value {
+    list.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect()
 }

@@ -1,12 +1,12 @@
 //! `vair profile`.
 
+use super::device::{DeviceArguments, check_validation};
 use super::output::{self, milliseconds};
 use super::scene::SceneArguments;
-use anyhow::{Result, bail};
+use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use vair::gpu::GpuOptions;
 use vair::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
 use vair::render::PassFragments;
 
@@ -22,12 +22,8 @@ pub struct ProfileArguments {
     /// Timed frames, after a warm-up.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_FRAMES, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     bench: u32,
-    /// Device by a part of its name.
-    #[arg(long, value_name = "SUBSTRING")]
-    device: Option<String>,
-    /// Runs with the validation layer; any message makes the exit status 1.
-    #[arg(long)]
-    validate: bool,
+    #[command(flatten)]
+    device: DeviceArguments,
     /// Writes the timed frames for chrome://tracing or Perfetto.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
@@ -45,12 +41,8 @@ pub fn run(arguments: &ProfileArguments) -> Result<()> {
     if !arguments.json {
         arguments.scene.complain(&scene);
     }
-    let device = GpuOptions {
-        device: arguments.device.clone(),
-        validate: arguments.validate,
-        // The profile measures a cache of its own.
-        pipeline_cache_dir: None,
-    };
+    // The profile measures a cache of its own.
+    let device = arguments.device.options(None);
     let profile = Profile::measure(&device, &scene, &options, arguments.bench)?;
     if let Some(path) = &arguments.trace {
         profile.write_trace(path)?;
@@ -60,14 +52,10 @@ pub fn run(arguments: &ProfileArguments) -> Result<()> {
     } else {
         output::print(&as_text(&profile, options.size, options.msaa))?;
     }
-    if let Some(first) = profile.validation_messages.first() {
-        bail!("{} validation messages; the first: {first}", profile.validation_messages.len());
-    }
-    Ok(())
+    check_validation(&profile.validation_messages)
 }
 
 fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value {
-    let info = &profile.device;
     let passes = profile.passes.iter().map(|pass| {
         let count = |value: fn(&PassFragments) -> u64| pass.fragments.as_ref().map(value);
         json!({
@@ -79,12 +67,6 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
             "overdraw": pass.fragments.and_then(|fragments| fragments.overdraw()).map(milliseconds),
         })
     });
-    let fur = profile.fur.iter().map(|coat| {
-        json!({
-            "material": coat.material, "layers": coat.layers, "instances": coat.instances,
-            "vertices_stored": coat.vertices_stored,
-        })
-    });
     let cpu: serde_json::Map<_, _> =
         profile.cpu_ms.iter().map(|(phase, ms)| ((*phase).to_owned(), spread(*ms))).collect();
     let memory = &profile.memory;
@@ -93,11 +75,11 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
     let by_owner: serde_json::Map<_, _> =
         memory.by_owner.iter().map(|(name, bytes)| (name.clone(), (*bytes).into())).collect();
     json!({
-        "device": { "name": info.name, "driver": info.driver, "api": info.api },
+        "device": output::device(&profile.device),
         "image": { "width": width, "height": height, "samples": samples },
         "ms": { "frame": spread(profile.frame_ms), "gpu": profile.gpu_ms.map(spread), "cpu": cpu },
         "passes": passes.collect::<Vec<_>>(),
-        "fur": fur.collect::<Vec<_>>(),
+        "fur": output::coats(&profile.fur),
         "memory": {
             "device_bytes": memory.device_bytes, "peak_bytes": memory.peak_bytes, "by_use": by_use,
             "by_owner": by_owner,
@@ -107,7 +89,7 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
             "by_name": profile.calls.by_name,
         },
         "start": { "cold": start(profile.cold), "warm": start(profile.warm) },
-        "left_out": profile.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect::<Vec<_>>(),
+        "left_out": output::left_out(&profile.left_out),
         "validation_messages": profile.validation_messages,
     })
 }

@@ -1,21 +1,20 @@
 //! `vair render`.
 
 use super::cache::pipeline_cache_dir;
+use super::device::{DeviceArguments, check_validation};
 use super::output::{self, milliseconds};
 use super::scene::SceneArguments;
 use super::sequence::{self, Shard};
 use super::{UsageError, values};
 use anyhow::{Result, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use vair::gpu::{DeviceInfo, GpuOptions};
+use vair::gpu::DeviceInfo;
 use vair::material::Material;
 use vair::profile::Spread;
 use vair::render::{FrameOptions, FrameReport, PassFragments, PictureFormat, Renderer};
@@ -40,12 +39,8 @@ pub struct RenderArguments {
     /// After a warm-up, N timed frames.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000), conflicts_with = "frames")]
     bench: Option<u32>,
-    /// Device by a part of its name.
-    #[arg(long, value_name = "SUBSTRING")]
-    device: Option<String>,
-    /// Runs with the validation layer; any message makes the exit status 1.
-    #[arg(long)]
-    validate: bool,
+    #[command(flatten)]
+    device: DeviceArguments,
     /// Prints one JSON object.
     #[arg(long)]
     json: bool,
@@ -76,14 +71,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         arguments.scene.complain(&scene);
     }
 
-    let mut renderer = Renderer::new(&GpuOptions {
-        device: arguments.device.clone(),
-        validate: arguments.validate,
-        pipeline_cache_dir: pipeline_cache_dir(),
-    })?;
+    let mut renderer = Renderer::new(&arguments.device.options(pipeline_cache_dir()))?;
     let mut times = FrameTimes { load_ms, ..FrameTimes::default() };
     let mut last = None;
-    let progress = progress(count);
+    let progress = output::progress(count > 1, "{bar:40} {pos}/{len} frames, {eta} left");
+    progress.set_length(count as u64);
     let at = |offset_s: f64| FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
     let sways = |material: &Material| material.fur.as_ref().is_some_and(|fur| fur.inertia > 0.0);
     let sways = scene.materials().iter().any(sways);
@@ -147,10 +139,7 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     } else if !to_stdout {
         output::print(&as_text(&path, count, &report, &times))?;
     }
-    if let Some(first) = messages.first() {
-        bail!("{} validation messages; the first: {first}", messages.len());
-    }
-    Ok(())
+    check_validation(&messages)
 }
 
 /// One picture to make.
@@ -177,17 +166,6 @@ impl RenderArguments {
                 offset_s: f64::from(frame) / f64::from(self.fps),
             })),
         }
-    }
-}
-
-fn progress(frames: usize) -> ProgressBar {
-    if frames < 2 || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(frames as u64), ProgressDrawTarget::stderr());
-    match ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
     }
 }
 
@@ -249,15 +227,8 @@ fn summary(rendered: &Rendered) -> Value {
             "fragments": fragments.map(|counted| counted.shaded).or((pass.triangles == 0).then_some(0)),
         })
     });
-    let fur = report.fur.iter().map(|coat| {
-        json!({
-            "material": coat.material, "layers": coat.layers, "instances": coat.instances,
-            "vertices_stored": coat.vertices_stored,
-        })
-    });
-    let left_out = report.left_out.iter().map(|left| json!({ "what": left.what, "why": left.why }));
     json!({
-        "device": { "name": info.name, "driver": info.driver, "api": info.api },
+        "device": output::device(info),
         // A name that is not UTF-8 cannot be JSON as it is.
         "image": { "path": path.to_string_lossy(), "width": options.size[0], "height": options.size[1] },
         "ms": {
@@ -267,9 +238,9 @@ fn summary(rendered: &Rendered) -> Value {
             "frame_count": times.frames_ms.len(),
         },
         "passes": passes.collect::<Vec<_>>(),
-        "fur": fur.collect::<Vec<_>>(),
+        "fur": output::coats(&report.fur),
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes },
-        "left_out": left_out.collect::<Vec<_>>(),
+        "left_out": output::left_out(&report.left_out),
         "warnings": scene.asset().warnings,
         "validation_messages": messages,
     })
@@ -289,7 +260,9 @@ fn as_text(path: &Path, count: usize, report: &FrameReport, times: &FrameTimes) 
     };
     if let Some(Spread { median, min, max, count }) = Spread::of(&times.frames_ms) {
         text += &match count {
-            1 => format!("frame: {median:.1} ms, with uploads and pipelines ({:.1} ms)\n", report.pipelines_ms),
+            1 if median == times.first_ms => {
+                format!("frame: {median:.1} ms, with uploads and pipelines ({:.1} ms)\n", report.pipelines_ms)
+            }
             _ => format!("frame: median {median:.1} ms, {min:.1} to {max:.1} ms over {count} frames\n"),
         };
     }

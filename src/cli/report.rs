@@ -1,13 +1,12 @@
 //! `vair report`.
 
 use super::cache::pipeline_cache_dir;
+use super::device::{DeviceArguments, check_validation};
 use super::output;
-use anyhow::{Result, bail};
+use anyhow::Result;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
 use std::path::PathBuf;
-use vair::gpu::{Gpu, GpuOptions};
+use vair::gpu::Gpu;
 use vair::report::{self, Effort, LAYERS_4X, Question, Report};
 
 #[derive(Debug, Args)]
@@ -18,12 +17,8 @@ pub struct ReportArguments {
     /// Small pictures and few points: two minutes on two cores.
     #[arg(long)]
     quick: bool,
-    /// Device by a part of its name.
-    #[arg(long, value_name = "SUBSTRING")]
-    device: Option<String>,
-    /// Runs with the validation layer; any message makes the exit status 1, and times mean less.
-    #[arg(long)]
-    validate: bool,
+    #[command(flatten)]
+    device: DeviceArguments,
     /// Prints one JSON object: that of report.json.
     #[arg(long)]
     json: bool,
@@ -33,12 +28,8 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     // Nobody should wait for a report in vain.
     report::check_folder(&arguments.out)?;
     let effort = if arguments.quick { Effort::quick() } else { Effort::full() };
-    let gpu = Gpu::new(&GpuOptions {
-        device: arguments.device.clone(),
-        validate: arguments.validate,
-        pipeline_cache_dir: pipeline_cache_dir(),
-    })?;
-    let bar = progress_bar();
+    let gpu = Gpu::new(&arguments.device.options(pipeline_cache_dir()))?;
+    let bar = output::progress(true, "{bar:40} {msg} {pos}/{len}");
     let measured = report::measure(&gpu, &Question::all(&effort), &effort, &mut |stage, done, count| {
         bar.set_length(count as u64);
         bar.set_position(done as u64);
@@ -54,22 +45,7 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     } else {
         output::print(&as_text(&measured, arguments))?;
     }
-    let messages = log.messages();
-    if let Some(first) = messages.first() {
-        bail!("{} validation messages; the first: {first}", messages.len());
-    }
-    Ok(())
-}
-
-fn progress_bar() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
-    match ProgressStyle::with_template("{bar:40} {msg} {pos}/{len}") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
+    check_validation(&log.messages())
 }
 
 fn as_text(report: &Report, arguments: &ReportArguments) -> String {

@@ -1,10 +1,11 @@
 //! `vair verify`.
 
+use super::device::{DeviceArguments, check_validation};
 use super::output;
 use anyhow::{Result, bail};
 use clap::Args;
 use serde_json::{Map, Value, json};
-use vair::gpu::{Gpu, GpuOptions};
+use vair::gpu::Gpu;
 use vair::verify::{self, FunctionReport, Report, Worst};
 
 #[derive(Debug, Args)]
@@ -15,12 +16,8 @@ pub struct VerifyArguments {
     /// A function, or those whose names contain this.
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
-    /// Device whose name contains this.
-    #[arg(long, value_name = "SUBSTRING")]
-    device: Option<String>,
-    /// Runs the validation layer; any message makes the exit status 1.
-    #[arg(long)]
-    validate: bool,
+    #[command(flatten)]
+    device: DeviceArguments,
     /// Prints one JSON object.
     #[arg(long)]
     json: bool,
@@ -30,11 +27,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<()> {
     if arguments.list {
         return list(arguments);
     }
-    let gpu = Gpu::new(&GpuOptions {
-        device: arguments.device.clone(),
-        validate: arguments.validate,
-        ..GpuOptions::default()
-    })?;
+    let gpu = Gpu::new(&arguments.device.options(None))?;
     let log = gpu.validation_log();
     let report = verify::run(&gpu, arguments.only.as_deref())?;
     drop(gpu);
@@ -43,9 +36,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<()> {
     } else {
         output::print(&as_text(&report))?;
     }
-    if let Some(message) = log.messages().first() {
-        bail!("the validation layer says: {message}");
-    }
+    check_validation(&log.messages())?;
     if let Some(broken) = report.properties.iter().find(|property| property.fails()) {
         bail!("a formula breaks its promise: {broken}");
     }

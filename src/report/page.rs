@@ -35,7 +35,8 @@ impl Report {
         }
         html += "<p class=\"soft\">Down and left is better. Numbers at the points are layers (of dynamics: steps a second). \
                  Grey: what others do. Ringed: no other point is as fast and as right. Hollow: the reference's noise is more \
-                 than a tenth of the error. Bars: 95 % interval of the median.</p>\n<h2>All plots</h2>\n";
+                 than a tenth of the error. Bars: 95 % interval of the median; of fewer than \
+                 six rounds that is all of them.</p>\n<h2>All plots</h2>\n";
         for (_, plot) in plots.iter().enumerate().filter(|(index, _)| *index != first) {
             let title = format!("{}: {}", plot.feature, plot.camera);
             html += &format!("<details><summary>{}</summary>\n{}\n</details>\n", escaped(&title), plot.svg);

@@ -1,4 +1,6 @@
-//! What many measurements say: medians and how sure they are, slopes, fronts, and readings between points.
+//! What many measurements say: medians and how sure they are, slopes, and fronts.
+
+use crate::profile;
 
 /// Resamples of a bootstrap: the ends of a 95 % interval are then good to about a hundredth of its rank.
 const RESAMPLES: usize = 1000;
@@ -19,26 +21,23 @@ pub struct Spread {
 impl Spread {
     /// Of at least one finite value; all zero without any. The same values give the same interval.
     pub fn of(values: &[f64]) -> Self {
+        let Some(profile::Spread { median, min, max, .. }) = profile::Spread::of(values) else {
+            return Self::default();
+        };
+        // Sorted, so that the same values in another order give the same interval.
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
-        let (Some(&min), Some(&max)) = (sorted.first(), sorted.last()) else { return Self::default() };
         let mut state = 1u64;
         let mut medians: Vec<f64> = (0..RESAMPLES)
-            .map(|_| {
-                let mut resample: Vec<f64> = sorted.iter().map(|_| sorted[below(sorted.len(), &mut state)]).collect();
-                resample.sort_by(f64::total_cmp);
-                median(&resample)
+            .filter_map(|_| {
+                let resample: Vec<f64> = sorted.iter().map(|_| sorted[below(sorted.len(), &mut state)]).collect();
+                profile::Spread::of(&resample).map(|spread| spread.median)
             })
             .collect();
         medians.sort_by(f64::total_cmp);
         let interval = [0.025, 0.975].map(|share| medians[(share * (RESAMPLES - 1) as f64).round() as usize]);
-        Self { median: median(&sorted), min, max, interval }
+        Self { median, min, max, interval }
     }
-}
-
-fn median(sorted: &[f64]) -> f64 {
-    let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }
 
 /// A number in [0, count); xorshift64 (Marsaglia 2003, "Xorshift RNGs").

@@ -20,8 +20,8 @@ pub struct FunctionReport {
     pub samples: usize,
     /// Of them, seeded ones; the others are the grid of extremes.
     pub seeded: usize,
-    /// Largest error over `|x| + abs / rel`, which is at most `rel` where the limit is met; what the rule adds to the limit
-    /// is taken off the error first.
+    /// Largest error over `|x| + abs / rel` (over `1 + |x|` without a relative limit). Where it is above `rel`, a rule or an
+    /// allowance stands for the rest: see [`Self::of_limit`].
     pub max_rel: f64,
     /// [`Self::max_rel`] over the seeded inputs alone.
     pub max_rel_seeded: f64,
