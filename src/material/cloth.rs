@@ -5,6 +5,7 @@ use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
 use super::{Fur, Standard};
+use crate::asset::TextureRef;
 
 /// Declares the families: `Variant = "kind"`, with the parameters of the struct of that name.
 macro_rules! cloths {
@@ -54,6 +55,13 @@ macro_rules! cloths {
             ) -> Result<(), ParameterError> {
                 match self {
                     $(Self::$family(family) => family.set(key, value, textures),)*
+                }
+            }
+
+            /// [`Family::textures`] of the family that it is.
+            pub fn textures(&self) -> Vec<(&'static str, TextureRef)> {
+                match self {
+                    $(Self::$family(family) => family.textures(),)*
                 }
             }
 
