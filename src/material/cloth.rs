@@ -1,5 +1,6 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::gauze::Gauze;
 use super::kind::TextureSource;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
@@ -80,6 +81,8 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Organza, chiffon, tulle: sheer face on, dense at its edges.
+    Gauze = "gauze";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
 }
