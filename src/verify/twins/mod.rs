@@ -4,6 +4,7 @@ mod albedo;
 mod color;
 mod coverage;
 mod direction;
+mod film;
 mod ggx;
 mod hash;
 mod light;
@@ -18,11 +19,12 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 13] = [
+    let files: [&'static [Twin]; 14] = [
         albedo::TWINS,
         color::TWINS,
         coverage::TWINS,
         direction::TWINS,
+        film::TWINS,
         ggx::TWINS,
         hash::TWINS,
         light::TWINS,
