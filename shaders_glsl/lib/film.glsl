@@ -14,11 +14,11 @@
 // What the channels answer to cos(2 pi path / wavelength), white giving 1: four bands of Gaussian shape in the
 // wavenumber, fitted by tools/fit_film.rs, which prints the text between the marks. A channel's weights add up to 1.
 // fit: begin
-const vec4 FILM_WAVENUMBER = vec4(1.63794, 1.74700, 1.81750, 2.21680); // 1 / um
-const vec4 FILM_WIDTH = vec4(0.07250, 0.09710, 0.13320, 0.11110);      // standard deviation, 1 / um
-const vec4 FILM_RED = vec4(1.35207, 1.15214, -1.59071, 0.08650);
-const vec4 FILM_GREEN = vec4(-0.33805, -0.03233, 1.49846, -0.12808);
-const vec4 FILM_BLUE = vec4(0.01974, -0.06940, -0.09289, 1.14255);
+const vec4 FILM_WAVENUMBER = vec4(1.63831, 1.74877, 1.81771, 2.21685); // 1 / um
+const vec4 FILM_WIDTH = vec4(0.07274, 0.09678, 0.13324, 0.11109);      // standard deviation, 1 / um
+const vec4 FILM_RED = vec4(1.37358, 1.12989, -1.59018, 0.08671);
+const vec4 FILM_GREEN = vec4(-0.33993, -0.02567, 1.49361, -0.12801);
+const vec4 FILM_BLUE = vec4(0.01907, -0.06988, -0.09159, 1.14240);
 // fit: end
 
 // The bands' answers to a difference of path, of which all orders are made.
