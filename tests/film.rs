@@ -73,8 +73,11 @@ fn white_stays_white_and_each_channel_reads_its_own_weights() {
     assert!((matrix * DVec3::ONE - DVec3::ONE).abs().max_element() < 1e-6, "{matrix}");
     // Row by row; transposed, red would look at blue's place.
     let rows = matrix.transpose();
-    let known =
-        [DVec3::new(3.1463, -1.6661, -0.4801), DVec3::new(-0.9955, 1.9558, 0.0398), DVec3::new(0.0636, -0.2146, 1.1510)];
+    let known = [
+        DVec3::new(3.1463, -1.6661, -0.4801),
+        DVec3::new(-0.9955, 1.9558, 0.0398),
+        DVec3::new(0.0636, -0.2146, 1.1510),
+    ];
     for (row, known) in [rows.x_axis, rows.y_axis, rows.z_axis].into_iter().zip(known) {
         assert!((row - known).abs().max_element() < 5e-5, "{row} for {known}");
     }

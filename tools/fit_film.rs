@@ -61,7 +61,9 @@ fn fitted(bands: &Bands, truth: &[(f64, DVec3)]) -> ([DVec4; 3], f64) {
     let rows: Vec<_> = truth.iter().map(|&(path_um, color)| (answers(bands, path_um), color)).collect();
     let (mut matrix, mut right) = (DMat4::from_diagonal(DVec4::splat(WEIGHT_COST * WEIGHT_COST)), [DVec4::ZERO; 3]);
     // Without a path all bands answer 1: a heavy row, so that white stays white.
-    for (row, color, weight) in rows.iter().map(|&(row, color)| (row, color, 1.0)).chain([(DVec4::ONE, DVec3::ONE, 1e6)]) {
+    for (row, color, weight) in
+        rows.iter().map(|&(row, color)| (row, color, 1.0)).chain([(DVec4::ONE, DVec3::ONE, 1e6)])
+    {
         matrix += outer(row, row) * weight;
         (0..3).for_each(|channel| right[channel] += row * (weight * color[channel]));
     }

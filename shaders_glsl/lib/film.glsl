@@ -34,7 +34,9 @@ FilmWaves film_waves(float path_um) {
     vec4 half_sine = sin(3.141592654 * (turns - floor(turns + 0.5)));
     waves.half_sine_squared = half_sine * half_sine;
     vec4 spread = FILM_WIDTH * (6.283185307 * path_um);
-    waves.decay = exp(-0.5 * spread * spread);
+    vec4 exponent = 0.5 * spread * spread;
+    // A device's exp may miss 1 by a bit or two at 0, where the sum over all orders is most sensitive.
+    waves.decay = mix(exp(-exponent), 1.0 - exponent, lessThan(exponent, vec4(1e-4)));
     return waves;
 }
 
@@ -78,8 +80,8 @@ vec3 film_polarised(float outside, float film, vec3 film_inside, vec3 base, Film
 // film_ior > 0, relative to air; base_f0 = reflectance of the bare base at normal incidence, which stands for a real
 // index per channel. Total reflection, at films below the index of air, returns 1.
 vec3 film_reflectance(float cosine, float thickness_nm, float film_ior, vec3 base_f0) {
-    // Nearer to the horizon everything is reflected but for 1e-5.
-    cosine = max(cosine, 1e-6);
+    // Nearer to the horizon everything is reflected, and rounding would show.
+    cosine = max(cosine, 1e-4);
     // Index times cosine: along the normal, in units of the wave number in air.
     float film_squared = (film_ior - 1.0) * (film_ior + 1.0) + cosine * cosine;
     if (film_squared <= 0.0) {

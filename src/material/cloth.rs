@@ -1,6 +1,7 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
 use super::kind::TextureSource;
+use super::laser::Laser;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
@@ -72,6 +73,8 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Iridescent film on cloth or metal.
+    Laser = "laser";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
 }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Bands that the shader adds up.
 pub const BANDS: usize = 4;
 /// Smallest cosine that is evaluated.
-pub const SMALLEST_COSINE: f64 = 1e-6;
+pub const SMALLEST_COSINE: f64 = 1e-4;
 
 /// Colour matching functions of the CIE 1931 observer at a wavelength in nanometres (Wyman, Sloan & Shirley 2013, "Simple
 /// Analytic Approximations to the CIE XYZ Color Matching Functions", the multi-lobe fit).
@@ -44,10 +44,7 @@ pub fn rgb_from_equal_energy_xyz() -> DMat3 {
 /// Fresnel's amplitudes (s, p) at a face between two indices, at those cosines.
 fn amplitudes((index, cosine): (f64, f64), (index_behind, cosine_behind): (f64, f64)) -> [f64; 2] {
     let amplitude = |a: f64, b: f64| (a - b) / (a + b);
-    [
-        amplitude(index * cosine, index_behind * cosine_behind),
-        amplitude(index_behind * cosine, index * cosine_behind),
-    ]
+    [amplitude(index * cosine, index_behind * cosine_behind), amplitude(index_behind * cosine, index * cosine_behind)]
 }
 
 /// What light meets: the amplitudes of both faces, for s and p, and the difference of path of neighbouring orders.
@@ -134,7 +131,8 @@ impl Fit {
         let text = include_str!("../../../shaders_glsl/lib/film.glsl");
         let row = |name: &str| {
             let after = text.split(&format!("vec4 {name} = vec4(")).nth(1).and_then(|rest| rest.split(')').next());
-            let numbers: Vec<f64> = after.unwrap_or("").split(',').filter_map(|word| word.trim().parse().ok()).collect();
+            let numbers: Vec<f64> =
+                after.unwrap_or("").split(',').filter_map(|word| word.trim().parse().ok()).collect();
             <[f64; BANDS]>::try_from(numbers).unwrap_or_else(|_| panic!("{name} in film.glsl is not four numbers"))
         };
         Self {

@@ -12,6 +12,8 @@ pub mod direction;
 pub mod film;
 pub mod ggx;
 pub mod hash;
+pub mod hsv;
+pub mod laser;
 pub mod light;
 pub mod lock;
 pub mod standard;

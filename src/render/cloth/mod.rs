@@ -1,6 +1,7 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod laser;
 mod satin;
 
 use super::map::Map;
@@ -29,6 +30,7 @@ pub struct ClothShader {
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
+        Cloth::Laser(laser) => laser::shader(laser, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
     }
 }

@@ -7,6 +7,8 @@ mod direction;
 mod film;
 mod ggx;
 mod hash;
+mod hsv;
+mod laser;
 mod light;
 mod lock;
 mod standard;
@@ -19,7 +21,7 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 14] = [
+    let files: [&'static [Twin]; 16] = [
         albedo::TWINS,
         color::TWINS,
         coverage::TWINS,
@@ -27,6 +29,8 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         film::TWINS,
         ggx::TWINS,
         hash::TWINS,
+        hsv::TWINS,
+        laser::TWINS,
         light::TWINS,
         lock::TWINS,
         standard::TWINS,
