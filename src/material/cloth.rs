@@ -2,6 +2,7 @@
 
 use super::gauze::Gauze;
 use super::kind::TextureSource;
+use super::laser::Laser;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
@@ -83,6 +84,8 @@ macro_rules! cloths {
 cloths! {
     /// Organza, chiffon, tulle: sheer face on, dense at its edges.
     Gauze = "gauze";
+    /// Iridescent film on cloth or metal.
+    Laser = "laser";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
 }

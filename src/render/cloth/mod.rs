@@ -2,6 +2,7 @@
 //! decided when the pipeline is made.
 
 mod gauze;
+mod laser;
 mod satin;
 
 use super::map::Map;
@@ -31,6 +32,7 @@ pub struct ClothShader {
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
         Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
+        Cloth::Laser(laser) => laser::shader(laser, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
     }
 }

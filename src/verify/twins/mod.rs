@@ -6,8 +6,11 @@ mod color;
 mod coverage;
 mod direction;
 mod gauze;
+mod film;
 mod ggx;
 mod hash;
+mod hsv;
+mod laser;
 mod light;
 mod lock;
 mod satin;
@@ -28,8 +31,11 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         coverage::TWINS,
         direction::TWINS,
         gauze::TWINS,
+        film::TWINS,
         ggx::TWINS,
         hash::TWINS,
+        hsv::TWINS,
+        laser::TWINS,
         light::TWINS,
         lock::TWINS,
         satin::TWINS,
