@@ -6,6 +6,7 @@
 mod cloth;
 mod error;
 mod fur;
+mod glint;
 pub mod kind;
 mod look;
 mod nearest;
@@ -23,6 +24,7 @@ mod value;
 pub use cloth::{Cloth, KINDS};
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
+pub use glint::{Flakes, Glint};
 pub use kind::{Choice, Form, Length, TextureSource};
 pub use look::Look;
 pub use nearest::nearest;

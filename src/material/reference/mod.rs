@@ -10,6 +10,7 @@ pub mod color;
 pub mod coverage;
 pub mod direction;
 pub mod ggx;
+pub mod glint;
 pub mod hash;
 pub mod light;
 pub mod lock;

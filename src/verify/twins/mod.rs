@@ -5,6 +5,7 @@ mod color;
 mod coverage;
 mod direction;
 mod ggx;
+mod glint;
 mod hash;
 mod light;
 mod lock;
@@ -18,12 +19,13 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 13] = [
+    let files: [&'static [Twin]; 14] = [
         albedo::TWINS,
         color::TWINS,
         coverage::TWINS,
         direction::TWINS,
         ggx::TWINS,
+        glint::TWINS,
         hash::TWINS,
         light::TWINS,
         lock::TWINS,
