@@ -179,18 +179,17 @@ vec4 glint_flake(GlintFlakes flakes, GlintFootprint footprint, ivec2 place, uint
     return vec4(1.0 - flakes.variation * shade, 1.0) * weight;
 }
 
-// Which levels show single flakes, where a kernel reaches so far. Tiles are at least twice as wide as it. Near and far
-// are chosen so that flakes never subtract light and the variance falls with the number of flakes: with the shares a of
-// one level and b of the next, a + b / 2 <= 1 and a^2 + b^2 / 4 = 4^-t, as the next level's is a quarter.
+// Which levels show single flakes, where a kernel reaches so far: the first whose tiles are at least twice as wide, and,
+// as the kernel nears that, the next one. Either alone has the variance of all the flakes that are there. Between them,
+// with the shares a of the one and b / 2 of the other, a^2 + b^2 is 1, or as near (0.8 and more) as flakes that never
+// subtract light allow: a + b / 2 <= 1.
 GlintLevels glint_levels(float reach, uint fineness) {
     float level = log2(max(2.0 * reach, 1e-6)) - float(fineness);
     float first = clamp(ceil(level), 0.0, GLINT_LAST_LEVEL);
-    float t = clamp(level - first + 1.0, 0.0, 1.0);
-    float remaining = exp2(-2.0 * t);
-    float far = t < 0.5 ? 1.0 - sqrt(max(2.0 * remaining - 1.0, 0.0)) : 1.0;
-    float near = t < 0.5 ? 1.0 - 0.5 * far : sqrt(max(remaining - 0.25, 0.0));
+    float b = clamp(2.0 * (level - first) + 1.0, 0.0, 1.0);
+    float a = min(1.0 - 0.5 * b, sqrt(1.0 - b * b));
     float share = exp2(-first) * clamp(GLINT_LAST_LEVEL - level, 0.0, 1.0);
-    return GlintLevels(uint(first), near * share, far * share * 0.5);
+    return GlintLevels(uint(first), a * share, 0.5 * b * share);
 }
 
 // What chooses a tile's shuffle and moves its normals.

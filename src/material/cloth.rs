@@ -1,5 +1,6 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::glint::Glint;
 use super::kind::TextureSource;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
@@ -72,6 +73,8 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Sequins, lurex, glitter yarn: flakes that flash one by one.
+    Glint = "glint";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
 }

@@ -110,7 +110,7 @@ impl Footprint {
             pixel,
             disc,
             sharpness,
-            inverse_squared: 1.0 / covariance(disc, pixel).determinant().max(1e-12),
+            inverse_squared: 1.0 / determinant(disc, pixel).max(1e-12),
             reach: half(covariance(disc, pixel)),
             blur: half(pixel * pixel.transpose()),
         }
@@ -132,8 +132,21 @@ impl Footprint {
 
 /// Covariance of a disc and a pixel, along the edges.
 fn covariance(disc: f64, pixel: DMat2) -> DMat2 {
+    round() * disc + pixel * pixel.transpose()
+}
+
+/// Covariance of a disc of radius 1.
+fn round() -> DMat2 {
     let plane = edges().inverse();
-    plane * plane.transpose() * disc + pixel * pixel.transpose()
+    plane * plane.transpose()
+}
+
+/// Determinant of that covariance, by Cauchy and Binet: grazing views stretch pixels so far that the matrix forgets it.
+fn determinant(disc: f64, pixel: DMat2) -> f64 {
+    let across = |vector: DVec2| vector.perp().dot(round() * vector.perp());
+    disc * disc * round().determinant()
+        + disc * (across(pixel.x_axis) + across(pixel.y_axis))
+        + pixel.determinant().powi(2)
 }
 
 /// Tint and weight of one flake of a level in a pixel.
@@ -157,15 +170,10 @@ pub fn flake_at(flakes: &Flakes, place: IVec2, level: u32, stream: u32) -> (DVec
 pub fn levels(reach: f64, fineness: u32) -> (u32, f64, f64) {
     let level = (2.0 * reach).max(1e-6).log2() - f64::from(fineness);
     let first = level.ceil().clamp(0.0, LAST_LEVEL);
-    let t = (level - first + 1.0).clamp(0.0, 1.0);
-    // a + b / 2 <= 1, so that nothing is negative, and a^2 + b^2 / 4 = 4^-t, the variance.
-    let variance = 0.25f64.powf(t);
-    let (a, b) = if t < 0.5 {
-        let b = 1.0 - (2.0 * variance - 1.0).max(0.0).sqrt();
-        (1.0 - 0.5 * b, b)
-    } else {
-        ((variance - 0.25).max(0.0).sqrt(), 1.0)
-    };
+    // The next level takes over within the last half octave. a + b / 2 <= 1, so that nothing is negative, and a^2 + b^2,
+    // the variance, is 1 where that allows.
+    let b = (2.0 * (level - first) + 1.0).clamp(0.0, 1.0);
+    let a = (1.0 - 0.5 * b).min((1.0 - b * b).sqrt());
     let share = 0.5f64.powf(first) * (LAST_LEVEL - level).clamp(0.0, 1.0);
     (first as u32, a * share, 0.5 * b * share)
 }

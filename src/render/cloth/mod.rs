@@ -1,6 +1,7 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod glint;
 mod satin;
 
 use super::map::Map;
@@ -26,9 +27,17 @@ pub struct ClothShader {
     pub blends: bool,
 }
 
+impl ClothShader {
+    /// Whether it asks the vertices where they are in the rest pose.
+    pub fn reads_rest(&self) -> bool {
+        self.file == "glint.frag"
+    }
+}
+
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
+        Cloth::Glint(glint) => glint::shader(glint, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
     }
 }
