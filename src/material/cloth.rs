@@ -1,6 +1,7 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
 use super::gauze::Gauze;
+use super::glint::Glint;
 use super::kind::TextureSource;
 use super::laser::Laser;
 use super::parameter::{Family, Parameter, ParameterError};
@@ -86,6 +87,8 @@ cloths! {
     Gauze = "gauze";
     /// Iridescent film on cloth or metal.
     Laser = "laser";
+    /// Sequins, lurex, glitter yarn: flakes that flash one by one.
+    Glint = "glint";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
 }

@@ -13,6 +13,7 @@ pub mod direction;
 pub mod gauze;
 pub mod film;
 pub mod ggx;
+pub mod glint;
 pub mod hash;
 pub mod hsv;
 pub mod laser;

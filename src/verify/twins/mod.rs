@@ -8,6 +8,7 @@ mod direction;
 mod gauze;
 mod film;
 mod ggx;
+mod glint;
 mod hash;
 mod hsv;
 mod laser;
@@ -25,6 +26,7 @@ use super::twin::Twin;
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
     let files: [&'static [Twin]; 16] = [
+    let files: [&'static [Twin]; 14] = [
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
@@ -33,6 +35,7 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         gauze::TWINS,
         film::TWINS,
         ggx::TWINS,
+        glint::TWINS,
         hash::TWINS,
         hsv::TWINS,
         laser::TWINS,
