@@ -17,6 +17,7 @@ mod stage;
 
 mod blending;
 mod camera;
+mod cloth;
 mod coat;
 mod count;
 mod deform;
