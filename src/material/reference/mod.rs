@@ -13,6 +13,7 @@ pub mod ggx;
 pub mod hash;
 pub mod light;
 pub mod lock;
+pub mod sheen;
 pub mod standard;
 pub mod strand;
 pub mod sway;
