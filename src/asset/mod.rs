@@ -44,5 +44,7 @@ pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use model::*;
-pub use tangent::{MAX_TRIANGLES_AROUND_CORNER, NoTangents, generate_tangents, tangent_bytes};
+pub use tangent::{
+    MAX_TRIANGLES_AROUND_CORNER, NoTangents, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
+};
 pub use uri::{read_file, read_inside};
