@@ -9,6 +9,7 @@ pub mod classic;
 pub mod color;
 pub mod coverage;
 pub mod direction;
+pub mod fuzz;
 pub mod ggx;
 pub mod hash;
 pub mod light;
