@@ -3,10 +3,11 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
+use crate::asset::procedural::{SWATCH_MATERIAL, swatch};
 use crate::asset::{
     self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
 };
-use crate::material::{self, Cloth, Look, Material, Standard};
+use crate::material::{self, Cloth, Look, Material, Standard, presets};
 use crate::math::{Aabb, Hull};
 use crate::scene::{Instance, instances};
 use glam::Vec3;
@@ -68,6 +69,18 @@ impl Scene {
     pub fn gallery() -> Self {
         Self::from_asset(asset::procedural::gallery())
             .unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+    }
+
+    /// A sample of a preset: cloth hangs over a ball of stone, fur grows on a ball.
+    ///
+    /// # Errors
+    /// No preset of that name.
+    pub fn swatch(preset: &str) -> Result<Self, SceneError> {
+        let look = Look::preset(preset, Some(SWATCH_MATERIAL))?;
+        let is_fur = presets().iter().any(|known| known.is_named(preset) && known.kind() == "fur");
+        let mut scene = Self::from_asset(swatch(!is_fur))?;
+        scene.apply(&look, Path::new(""), &LoadOptions::default())?;
+        Ok(scene)
     }
 
     /// Dresses plain data with the materials that it names.
