@@ -1,9 +1,11 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::cotton::Cotton;
 use super::kind::TextureSource;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
+use super::velvet::Velvet;
 use super::{Fur, Standard};
 
 /// Declares the families: `Variant = "kind"`, with the parameters of the struct of that name.
@@ -72,6 +74,10 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Jersey, denim, flannel, felt: cloth with fuzz.
+    Cotton = "cotton";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
+    /// Velvet, corduroy: a dense pile, dark from the front and bright at its folds.
+    Velvet = "velvet";
 }

@@ -1,7 +1,10 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod cotton;
 mod satin;
+mod sheen;
+mod velvet;
 
 use super::map::Map;
 use super::table::Table;
@@ -29,6 +32,8 @@ pub struct ClothShader {
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
+        Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
+        Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
     }
 }
