@@ -82,7 +82,7 @@ float sheen_ltc_times_cosine(vec2 ltc, vec2 view_axis, vec3 l) {
     float across = ltc.x * (view_axis.x * l.y - view_axis.y * l.x);
     // a^2 z / (pi |w|^4); divided by a first, as the square of a small a would leave single precision.
     float squared = along * along + across * across + l.z * l.z;
-    float shrunk = ltc.x / max(squared, 1e-30);
+    float shrunk = ltc.x / max(squared, 1e-12);
     return shrunk * shrunk * l.z * 0.318309886;
 }
 

@@ -7,8 +7,9 @@ use glam::Vec3;
 const UNBOUNDED: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const UNIT: (f64, f64) = (0.0, 1.0);
 
-/// Of the fibres that scatter, thin and wide.
-const SCATTER_ROUGHNESS: [f32; 2] = [0.36, 0.8];
+/// Roughness of the scattering fibres, thin and wide: there the sheen has fallen to half of what it is at the horizon at the
+/// cosines 0.159 and 0.5, where the two rims that the classic scale blends, (1 - n.v)^4 and 1 - n.v, have.
+const SCATTER_ROUGHNESS: [f32; 2] = [0.355, 0.77];
 
 crate::parameters! {
     /// Velvet. The surface's metallic turns its colour from that of the ground to that of the pile, its roughness is the

@@ -2,7 +2,7 @@
 
 use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::Twin;
-use super::sheen::{AXIS, FLOORED_ALPHA, LAMBDA, Lobe, TRANSFORM};
+use super::sheen::{AVERAGE, AXIS, FLOORED_ALPHA, LAMBDA, Lobe, TRANSFORM};
 use crate::material::Sheen;
 use crate::material::reference::{fuzz, ggx};
 use std::f64::consts::PI;
@@ -18,13 +18,13 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
             UNIT,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
             LAMBDA,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
@@ -52,13 +52,13 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
             UNIT,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
             LAMBDA,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,

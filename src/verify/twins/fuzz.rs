@@ -2,7 +2,7 @@
 
 use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::{Given, Twin};
-use super::sheen::{AXIS, FLOORED_ALPHA, LAMBDA, Lobe, MODEL, TRANSFORM};
+use super::sheen::{AVERAGE, AXIS, FLOORED_ALPHA, LAMBDA, Lobe, MODEL, TRANSFORM};
 use crate::material::reference::fuzz;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -47,13 +47,13 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
             UNIT,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
             LAMBDA,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
@@ -80,13 +80,13 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
             UNIT,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
             LAMBDA,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
@@ -123,13 +123,13 @@ pub(super) const TWINS: &[Twin] = &[
             UNIT,
             UNIT,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,
             LAMBDA,
             UNIT,
-            UNIT,
+            AVERAGE,
             TRANSFORM,
             AXIS,
             FLOORED_ALPHA,

@@ -17,8 +17,8 @@ pub(super) const FLOORED_ALPHA: Domain = Domain::Log(0.07, 1.0, &[0.07, 0.5, 1.0
 const INVERTED_ALPHA: Domain = Domain::Log(1e-3, 1.0, &[1e-3, 0.05, 1.0]);
 /// a and b of the table: 0 where there is no lobe, and what it holds.
 pub(super) const TRANSFORM: Domain = Domain::Uniform(-0.25, 1.0, &[-0.25, 0.0, 1e-6, 0.03, 1.0]);
-/// Of the projection of a view; the formula asks for no length.
-pub(super) const AXIS: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1.0]);
+/// Of the projection of a view; the formula asks for some length, not for 1.
+pub(super) const AXIS: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, 0.6, 1.0]);
 
 /// Members of `SheenLobe`.
 pub(super) struct Lobe {
@@ -30,6 +30,10 @@ pub(super) struct Lobe {
     lambda: f64,
 }
 
+/// A cosine above the horizon.
+const SEEN: Domain = Domain::Uniform(1e-7, 1.0, &[1e-7, 1e-3, 1.0]);
+/// Averages of the albedo: the table's are below 1/2.
+pub(super) const AVERAGE: Domain = Domain::Uniform(0.0, 0.5, &[0.0, 1e-8, 0.5]);
 /// Charlie's Lambda.
 pub(super) const LAMBDA: Domain = Domain::Log(1e-6, 1e6, &[0.0, 1e-6, 1e6]);
 
@@ -91,7 +95,9 @@ pub(super) const TWINS: &[Twin] = &[
             let (x, alpha) = (given.number(), given.number());
             vec![sheen::charlie_lambda(x, alpha).ln()]
         },
-    ),
+    )
+    // An error of the logarithm is Lambda's relative one.
+    .limit(2e-5, 2e-5),
     Twin::new("sheen_charlie_lambda", &[COSINE, FLOORED_ALPHA], |given| {
         let (mu, alpha) = (given.number(), given.number());
         vec![sheen::charlie_lambda(mu, alpha)]
@@ -100,9 +106,9 @@ pub(super) const TWINS: &[Twin] = &[
         let (h, alpha) = (given.vec3(), given.number());
         vec![sheen::inverted_ndf(h, alpha)]
     }),
-    Twin::new("sheen_cloth_visibility_times_cosine", &[COSINE, COSINE], |given| {
+    Twin::new("sheen_cloth_visibility_times_cosine", &[SEEN, COSINE], |given| {
         let (mu_v, mu_l) = (given.number(), given.number());
-        vec![if mu_l == 0.0 { 0.0 } else { sheen::cloth_visibility(mu_v, mu_l) * mu_l }]
+        vec![sheen::cloth_visibility(mu_v, mu_l) * mu_l]
     }),
     Twin::new("sheen_ltc_times_cosine", &[TRANSFORM, AXIS, Domain::Hemisphere], |given| {
         let (ltc, axis, l) = (given.vec2(), given.vec2(), given.vec3());
@@ -119,7 +125,7 @@ pub(super) const TWINS: &[Twin] = &[
     }),
     Twin::new(
         "sheen_brdf_times_cosine",
-        &[MODEL, UNIT, UNIT, TRANSFORM, AXIS, FLOORED_ALPHA, LAMBDA, Domain::Hemisphere, Domain::Hemisphere],
+        &[MODEL, UNIT, AVERAGE, TRANSFORM, AXIS, FLOORED_ALPHA, LAMBDA, Domain::Hemisphere, Domain::Hemisphere],
         |given| {
             let (model, lobe) = (given.uint(), Lobe::new(given));
             let (v, l) = (given.vec3(), given.vec3());
