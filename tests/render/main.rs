@@ -25,6 +25,7 @@ mod determinism;
 mod display;
 mod edges;
 mod everything;
+mod fuzz;
 mod goldens;
 mod lean;
 mod light;

@@ -4,7 +4,10 @@
 mod gauze;
 mod glint;
 mod laser;
+mod cotton;
 mod satin;
+mod sheen;
+mod velvet;
 
 use super::map::Map;
 use super::table::Table;
@@ -42,6 +45,8 @@ pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
         Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
         Cloth::Laser(laser) => laser::shader(laser, standard),
         Cloth::Glint(glint) => glint::shader(glint, standard),
+        Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
+        Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
     }
 }

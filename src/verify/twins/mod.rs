@@ -3,10 +3,12 @@
 mod albedo;
 mod anisotropy;
 mod color;
+mod cotton;
 mod coverage;
 mod direction;
 mod film;
 mod gauze;
+mod fuzz;
 mod ggx;
 mod glint;
 mod hash;
@@ -15,24 +17,29 @@ mod laser;
 mod light;
 mod lock;
 mod satin;
+mod sheen;
 mod standard;
 mod strand;
 mod sway;
 mod tonemap;
 mod uv;
+mod velvet;
 
 use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
     const FILES: &[&[Twin]] = &[
+    let files: [&'static [Twin]; 17] = [
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
+        cotton::TWINS,
         coverage::TWINS,
         direction::TWINS,
         gauze::TWINS,
         film::TWINS,
+        fuzz::TWINS,
         ggx::TWINS,
         glint::TWINS,
         hash::TWINS,
@@ -41,11 +48,13 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         light::TWINS,
         lock::TWINS,
         satin::TWINS,
+        sheen::TWINS,
         standard::TWINS,
         strand::TWINS,
         sway::TWINS,
         tonemap::TWINS,
         uv::TWINS,
+        velvet::TWINS,
     ];
     FILES.iter().copied().flatten()
 }
