@@ -4,8 +4,8 @@
 use super::permutation::Permutation;
 use std::path::{Path, PathBuf};
 
-/// Where `#include` looks, under `shaders_glsl`.
-const FOLDERS: [&str; 2] = ["lib", "host"];
+/// Where `#include` looks, under `shaders_glsl`: functions, mirrored structs, and what entry points share.
+const FOLDERS: [&str; 3] = ["lib", "host", "pass"];
 
 /// The whole text of one permutation, whose file is in `folder`. `root` is the `shaders_glsl` folder.
 pub(crate) fn expand(permutation: &Permutation, folder: &Path, root: &Path) -> Result<String, String> {
@@ -51,13 +51,15 @@ fn append(
             return Err(format!("{}: write #include \"file.glsl\"", here()));
         };
         let folders = FOLDERS.map(|folder| root.join(folder).join(name));
-        let mut found = folders.iter().filter(|candidate| candidate.is_file());
-        let Some(target) = found.next() else {
-            return Err(format!("{}: `{name}` is in neither {}", here(), FOLDERS.map(shown).join(" nor ")));
+        let found: Vec<_> = FOLDERS.iter().zip(&folders).filter(|(_, candidate)| candidate.is_file()).collect();
+        let [(_, target)] = found[..] else {
+            let all = FOLDERS.map(shown).join(" nor ");
+            let several = found.iter().map(|(folder, _)| shown(folder)).collect::<Vec<_>>().join(" and ");
+            return Err(match found.as_slice() {
+                [] => format!("{}: `{name}` is in neither {all}", here()),
+                _ => format!("{}: `{name}` is in both {several}: rename one", here()),
+            });
         };
-        if found.next().is_some() {
-            return Err(format!("{}: `{name}` is in both {}: rename one", here(), FOLDERS.map(shown).join(" and ")));
-        }
         if open.contains(target) {
             return Err(format!("{}: `{name}` includes itself", here()));
         }

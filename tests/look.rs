@@ -116,7 +116,7 @@ fn mistakes_name_the_line_and_the_nearest_name() {
     );
     assert_eq!(
         error("[material.Eyes]\nlength = 1\n"),
-        "look.toml:2: `length` is a key of fur: add kind = \"fur\" or a fur preset"
+        "look.toml:2: `length` is a key of fur: add kind = \"fur\" or a preset of that kind"
     );
     assert_eq!(error("[materials.Eyes]\n"), "look.toml:1: unknown section `materials`, write [material.\"NAME\"]");
     assert!(error("[material.Eyes]\nmetallic = \n").starts_with("look.toml:2: "));

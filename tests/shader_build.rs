@@ -101,7 +101,7 @@ fn bad_includes_name_their_line() {
     let error = |file: &str| relative(&include::expand(&one(file), &folder, root.path()).unwrap_err(), root.path());
     assert_eq!(
         error("none.frag"),
-        "pass/none.frag:3: `none.glsl` is in neither shaders_glsl/lib nor shaders_glsl/host"
+        "pass/none.frag:3: `none.glsl` is in neither shaders_glsl/lib nor shaders_glsl/host nor shaders_glsl/pass"
     );
     assert_eq!(
         error("both.frag"),

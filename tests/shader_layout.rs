@@ -34,6 +34,10 @@ fn every_pass_file_is_built() {
     assert!(!table::ALL.is_empty());
     for entry in folder {
         let file = entry.unwrap().file_name().into_string().unwrap();
+        // What entry points share is built with them.
+        if file.ends_with(".glsl") {
+            continue;
+        }
         let is_built = table::ALL.iter().any(|shader| shader.name.split('+').next() == Some(file.as_str()));
         assert!(is_built, "shaders_glsl/pass/{file} has no line in shaders_glsl/permutations");
     }

@@ -19,4 +19,18 @@ mat3 direction_frame(vec3 normal) {
                 vec3(b, side + normal.y * normal.y * a, -normal.y), normal);
 }
 
+// Tangent, bitangent and normal with the tangent as near to the given one as the normal allows, or anywhere around the
+// normal where that says nothing; side < 0 mirrors the bitangent.
+mat3 direction_frame_along(vec3 normal, vec3 tangent, float side) {
+    mat3 frame = direction_frame(normal);
+    vec3 across = tangent - normal * dot(normal, tangent);
+    if (dot(across, across) > 1e-8) {
+        frame[0] = across * inversesqrt(dot(across, across));
+        // Once more: after a subtraction that cancelled it is not yet perpendicular.
+        frame[0] = direction_or(frame[0] - normal * dot(normal, frame[0]), frame[0]);
+    }
+    frame[1] = (side < 0.0 ? -1.0 : 1.0) * cross(normal, frame[0]);
+    return frame;
+}
+
 #endif

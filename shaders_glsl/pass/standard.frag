@@ -1,190 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The standard material: metallic-roughness, lit by punctual lights and a constant ambient.
-#include "frame.glsl"
-#include "standard_material.glsl"
-#include "direction.glsl"
-#include "light.glsl"
-#include "uv.glsl"
-#include "hash.glsl"
-#include "coverage.glsl"
+#include "surface.glsl"
 #include "standard.glsl"
-#ifdef COUNT
-#define UNLIT
-#include "count.glsl"
-#endif
-
-layout(constant_id = 0) const uint ALPHA_MODE = 0; // 0 opaque, 1 mask, 2 blend
-layout(constant_id = 1) const uint SAMPLE_COUNT = 1;
-layout(constant_id = 2) const bool DOUBLE_SIDED = false;
-layout(constant_id = 3) const bool HAS_BASE_COLOR_MAP = false;
-layout(constant_id = 4) const bool HAS_METALLIC_ROUGHNESS_MAP = false;
-layout(constant_id = 5) const bool HAS_OCCLUSION_MAP = false;
-layout(constant_id = 6) const bool HAS_EMISSIVE_MAP = false;
-layout(constant_id = 7) const bool HAS_NORMAL_MAP = false;
-layout(constant_id = 8) const bool HAS_DETAIL_ALBEDO_MAP = false;
-layout(constant_id = 9) const bool HAS_DETAIL_NORMAL_MAP = false;
-
-layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
-layout(set = 1, binding = 0, std140) uniform StandardBlock { StandardUniforms material; };
-#ifndef UNLIT
-layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
-#endif
-#ifdef UV
-layout(set = 1, binding = 1) uniform texture2D base_color_map;
-layout(set = 1, binding = 2) uniform sampler base_color_sampler;
-#ifndef UNLIT
-layout(set = 1, binding = 3) uniform texture2D metallic_roughness_map;
-layout(set = 1, binding = 4) uniform sampler metallic_roughness_sampler;
-layout(set = 1, binding = 5) uniform texture2D occlusion_map;
-layout(set = 1, binding = 6) uniform sampler occlusion_sampler;
-layout(set = 1, binding = 7) uniform texture2D emissive_map;
-layout(set = 1, binding = 8) uniform sampler emissive_sampler;
-#endif
-#endif
-#ifdef TANGENT
-layout(set = 1, binding = 9) uniform texture2D normal_map;
-layout(set = 1, binding = 10) uniform sampler normal_sampler;
-#endif
-#ifdef DETAIL
-layout(set = 1, binding = 11) uniform texture2D detail_albedo_map;
-layout(set = 1, binding = 12) uniform sampler detail_albedo_sampler;
-layout(set = 1, binding = 13) uniform texture2D detail_normal_map;
-layout(set = 1, binding = 14) uniform sampler detail_normal_sampler;
-#endif
-
-layout(location = 0) in vec3 position_in_world;
-#ifndef UNLIT
-layout(location = 1) in vec3 normal_in_world;
-#endif
-#ifdef UV
-layout(location = 2) in vec4 uv_sets;
-#endif
-#ifdef TANGENT
-layout(location = 3) in vec4 tangent_in_world;
-#endif
-#ifdef COLOR
-layout(location = 4) in vec4 vertex_color;
-#endif
-
-layout(location = 0) out vec4 radiance;
-
-vec4 base_color() {
-    vec4 color = material.base_color;
-#ifdef COLOR
-    color *= vertex_color;
-#endif
-#ifdef UV
-    if (HAS_BASE_COLOR_MAP) {
-        vec2 uv = uv_transformed(material.base_color_transform, uv_sets.xy, uv_sets.zw);
-        color *= texture(sampler2D(base_color_map, base_color_sampler), uv);
-    }
-#endif
-#ifdef DETAIL
-    if (HAS_DETAIL_ALBEDO_MAP) {
-        vec2 uv = uv_transformed(material.detail_albedo_transform, uv_sets.xy, uv_sets.zw);
-        // Twice the map, so that mid grey (0.2140 linear, 0.5 stored) leaves the base colour as it is.
-        vec3 detail = texture(sampler2D(detail_albedo_map, detail_albedo_sampler), uv).rgb;
-        color.rgb = clamp(color.rgb * detail * 4.6716, 0.0, 1.0);
-    }
-#endif
-    return color;
-}
-
-#ifndef UNLIT
-vec3 shading_normal(vec3 geometric_normal) {
-#ifdef TANGENT
-    vec3 in_tangent = vec3(0.0, 0.0, 1.0);
-    if (HAS_NORMAL_MAP) {
-        vec2 uv = uv_transformed(material.normal_transform, uv_sets.xy, uv_sets.zw);
-        in_tangent = texture(sampler2D(normal_map, normal_sampler), uv).xyz * 2.0 - 1.0;
-        in_tangent.xy *= material.normal_scale;
-    }
-#ifdef DETAIL
-    if (HAS_DETAIL_NORMAL_MAP) {
-        vec2 uv = uv_transformed(material.detail_normal_transform, uv_sets.xy, uv_sets.zw);
-        vec3 detail = texture(sampler2D(detail_normal_map, detail_normal_sampler), uv).xyz * 2.0 - 1.0;
-        detail.xy *= material.detail_normal_scale;
-        // "Whiteout" blend (Barre-Brisebois & Hill 2012, "Blending in Detail"): slopes add.
-        in_tangent = vec3(in_tangent.xy + detail.xy, in_tangent.z * detail.z);
-    }
-#endif
-    vec3 tangent = tangent_in_world.xyz;
-    // The interpolated vectors are used as they are (MikkTSpace), so that baked maps decode exactly.
-    vec3 bitangent = tangent_in_world.w * cross(normal_in_world, tangent);
-    vec3 mapped = in_tangent.x * tangent + in_tangent.y * bitangent + in_tangent.z * normal_in_world;
-    float length_squared = dot(mapped, mapped);
-    if (length_squared > 1e-20) {
-        mapped *= inversesqrt(length_squared);
-        return dot(mapped, mapped) > 0.5 ? mapped : geometric_normal;
-    }
-#endif
-    return geometric_normal;
-}
-#endif
 
 void main() {
-    vec4 color = base_color();
-    float opacity = 1.0;
-    int mask = -1;
+    vec4 color = surface_color();
+    int mask = surface_mask(color.a);
+    float opacity = surface_opacity(color.a);
+#ifdef COUNT
     uint mode = ALPHA_MODE;
     uint samples = SAMPLE_COUNT;
-    if (mode == 1u) {
-        // One pixel wide at the edge, so that several samples smooth it.
-        float slope = max(fwidth(color.a), 1e-4);
-        float edge = samples == 1u ? (color.a >= material.alpha_cutoff ? 1.0 : 0.0)
-                                   : clamp((color.a - material.alpha_cutoff) / slope + 0.5, 0.0, 1.0);
-        mask = coverage_mask(edge, samples, 0.5, 0.0);
-    }
-    if (mode == 2u) { opacity = clamp(color.a, 0.0, 1.0); }
-
-#ifdef COUNT
     count_fragment(uint(mask), samples, mode != 2u);
     radiance = vec4(1.0);
 #elif defined UNLIT
     radiance = vec4(color.rgb * opacity, opacity);
 #else
-    vec3 normal = direction_or(normal_in_world, frame.view_in_world);
-    normal = shading_normal(normal);
-    if (DOUBLE_SIDED && !gl_FrontFacing) { normal = -normal; }
-
-    float metallic = material.metallic;
-    float roughness = material.roughness;
-    float occlusion = 1.0;
-    vec3 emissive = material.emissive;
-#ifdef UV
-    if (HAS_METALLIC_ROUGHNESS_MAP) {
-        vec2 uv = uv_transformed(material.metallic_roughness_transform, uv_sets.xy, uv_sets.zw);
-        vec4 map = texture(sampler2D(metallic_roughness_map, metallic_roughness_sampler), uv);
-        roughness *= map.g;
-        metallic *= map.b;
-    }
-    if (HAS_OCCLUSION_MAP) {
-        vec2 uv = uv_transformed(material.occlusion_transform, uv_sets.xy, uv_sets.zw);
-        float map = texture(sampler2D(occlusion_map, occlusion_sampler), uv).r;
-        occlusion = 1.0 + material.occlusion_strength * (map - 1.0);
-    }
-    if (HAS_EMISSIVE_MAP) {
-        vec2 uv = uv_transformed(material.emissive_transform, uv_sets.xy, uv_sets.zw);
-        emissive *= texture(sampler2D(emissive_map, emissive_sampler), uv).rgb;
-    }
-#endif
-
-    vec3 to_eye = frame.orthographic > 0.5 ? frame.view_in_world : direction_or(frame.eye_in_world - position_in_world, normal);
-    mat3 tangent_frame = direction_frame(normal);
-    // A bent normal may turn away from the eye; grazing is then the nearest view that has a meaning.
-    vec3 eye_in_tangent = to_eye * tangent_frame;
-    eye_in_tangent.z = max(eye_in_tangent.z, 1e-3);
-    StandardSurface surface = standard_surface(clamp(color.rgb, 0.0, 1.0), metallic, roughness, eye_in_tangent.z);
-    vec3 sum = frame.ambient_radiance * occlusion * standard_ambient(surface);
+    SurfaceFragment f = surface_fragment(color);
+    StandardSurface surface = standard_surface(f.base_color, f.metallic, f.roughness, f.eye_in_tangent.z);
+    vec3 sum = frame.ambient_radiance * f.occlusion * standard_ambient(surface);
     for (uint index = 0u; index < frame.light_count; ++index) {
         LightSample light = light_sample(lights[index], position_in_world);
-        vec3 light_in_tangent = light.direction_in_world * tangent_frame;
-        sum += light.irradiance * standard_brdf_times_cosine(surface, eye_in_tangent, light_in_tangent);
+        vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;
+        sum += light.irradiance * standard_brdf_times_cosine(surface, f.eye_in_tangent, light_in_tangent);
     }
-    radiance = vec4(min(sum + emissive, vec3(RADIANCE_LIMIT)) * opacity, opacity);
+    surface_write(f, sum, opacity);
 #endif
-    // Last: the textures above need all neighbours for their derivatives.
-    if (mask == 0) { discard; }
-    gl_SampleMask[0] = mask;
+    surface_cover(mask);
 }

@@ -48,5 +48,7 @@ pub use material_extension::{
     Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission,
 };
 pub use model::*;
-pub use tangent::{MAX_TRIANGLES_AROUND_CORNER, NoTangents, generate_tangents, tangent_bytes};
+pub use tangent::{
+    MAX_TRIANGLES_AROUND_CORNER, NoTangents, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
+};
 pub use uri::{read_file, read_inside};

@@ -156,6 +156,13 @@ pub fn generate_tangents(primitive: &mut Primitive, uv_set: usize) -> Result<(),
     Ok(())
 }
 
+/// Replaces the tangents by those around the vertical of the rest pose, for threads on meshes without texture coordinates.
+/// Does nothing without normals.
+pub fn generate_tangents_around_vertical(primitive: &mut Primitive) {
+    let around = |normal: &Vec3| unit(Vec3::Y.cross(*normal).as_dvec3()).unwrap_or_else(|| perpendicular(*normal));
+    primitive.vertices.tangents = primitive.vertices.normals.iter().map(|normal| around(normal).extend(1.0)).collect();
+}
+
 /// Bytes that [`generate_tangents`] adds to a primitive at most, and those that it works in besides.
 pub fn tangent_bytes(primitive: &Primitive) -> (u64, u64) {
     let indices = primitive.indices.len() as u64;

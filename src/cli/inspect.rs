@@ -47,6 +47,10 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
         let name = &scene.asset().images[texture.image].name;
         json!({ "name": name, "format": format(texture), "bytes": texture.bytes(scene.asset()) })
     });
+    let tables = plan
+        .tables
+        .values()
+        .map(|table| json!({ "name": table.name, "format": "rgba16f, table", "bytes": table.bytes().len() }));
     json!({
         "passes": passes.collect::<Vec<_>>(),
         "attachments": plan.attachments.iter().map(|attachment| json!({
@@ -54,7 +58,7 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
             "bytes": attachment.bytes(options.size),
         })).collect::<Vec<_>>(),
         "pipelines": pipelines.collect::<Vec<_>>(),
-        "textures": textures.collect::<Vec<_>>(),
+        "textures": textures.chain(tables).collect::<Vec<_>>(),
         "memory": {
             "vertex_bytes": plan.stream_bytes(scene.asset()), "index_bytes": plan.index_bytes(scene.asset()),
             "texture_bytes": plan.textures.iter().map(|texture| texture.bytes(scene.asset())).sum::<u64>(),

@@ -4,7 +4,7 @@ use super::output;
 use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
-use vair::material::{Family, Fur, Parameter, Standard, presets};
+use vair::material::{KINDS, Parameter, presets};
 
 #[derive(Debug, Args)]
 pub struct PresetsArguments {
@@ -26,17 +26,18 @@ pub fn run(arguments: &PresetsArguments) -> Result<()> {
                 json!({ "name": preset.name, "kind": preset.kind(), "help": preset.help, "parameters": parameters })
             })
             .collect();
-        let family = |list: &[Parameter]| list.iter().map(parameter).collect::<Vec<_>>();
+        let families: serde_json::Map<String, Value> =
+            KINDS.iter().map(|(kind, list)| ((*kind).to_owned(), list.iter().map(parameter).collect())).collect();
         return output::print_json(&json!({
             "presets": list,
-            "parameters": { "standard": family(Standard::PARAMETERS), "fur": family(Fur::PARAMETERS) },
+            "parameters": families,
         }));
     }
     let mut text = String::new();
     if arguments.parameters {
-        for (kind, list) in [("standard", Standard::PARAMETERS), ("fur", Fur::PARAMETERS)] {
+        for (kind, list) in KINDS {
             text += &format!("{kind}\n");
-            for entry in list {
+            for entry in *list {
                 let choices =
                     if entry.choices.is_empty() { String::new() } else { format!(" ({})", entry.choices.join(", ")) };
                 let unit = if entry.unit.is_empty() { String::new() } else { format!(" {}", entry.unit) };

@@ -463,7 +463,7 @@ impl<C: Choice> Kind for OneOf<C> {
         C::named(text).ok_or_else(|| ParameterError::NotAChoice {
             key: parameter.name.to_owned(),
             found: text.clone(),
-            choices: C::NAMES,
+            choices: C::NAMES.to_vec(),
             nearest: nearest(text, C::NAMES.iter().copied()).map(str::to_owned),
         })
     }

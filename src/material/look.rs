@@ -3,23 +3,23 @@
 //! ```toml
 //! [material."Fur Body"]     # glTF material name; "*" is every material, and is applied first
 //! preset = "fox"            # optional start; the keys below override it
-//! kind = "fur"              # "fur" or "standard"; left out: what the preset or the material is
+//! kind = "fur"              # or "standard", "satin", ...; left out: what the preset or the material is
 //! length = 0.03
 //! distribution_map = { file = "noise.png", tiling = [20, 20] }
 //! surface.roughness = 0.8   # the skin, where fur has a key of the same name
 //! ```
 //!
-//! A key belongs to the fur if the material has fur and fur has such a key, otherwise to the standard surface;
-//! `surface.KEY` is always the surface.
+//! A key belongs to the material's kind if that has such a key, otherwise to the standard surface; `surface.KEY` is always
+//! the surface.
 
 use super::error::MaterialError;
 use super::kind::TextureSource;
 use super::nearest::nearest;
-use super::parameter::{Family, ParameterError};
+use super::parameter::{Family, Parameter, ParameterError};
 use super::preset;
 use super::texture::{Appended, ReadImage};
 use super::value::Value;
-use super::{Fur, Material, Standard};
+use super::{Cloth, Fur, KINDS, Material, Standard};
 use crate::asset::Asset;
 use toml::de::{DeTable, DeValue};
 
@@ -36,16 +36,9 @@ pub(crate) struct Section {
     /// Name of the material, `"*"`, or of the preset.
     pub(crate) material: String,
     preset: Option<Entry>,
-    kind: Option<Coat>,
+    kind: Option<&'static str>,
     pub(crate) entries: Vec<Entry>,
     surface: Vec<Entry>,
-}
-
-/// Whether `kind` asks for fur.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Coat {
-    Fur,
-    Standard,
 }
 
 /// One key.
@@ -120,34 +113,32 @@ impl Look {
 }
 
 impl Section {
-    /// It puts fur on its material.
-    pub(crate) fn is_fur(&self) -> bool {
-        self.kind == Some(Coat::Fur)
+    /// The kind that it makes of its material, if it says one: one of [`KINDS`].
+    pub(crate) fn kind(&self) -> Option<&'static str> {
+        self.kind
     }
 
     pub(crate) fn apply(&self, material: &mut Material, textures: &mut dyn TextureSource) -> Result<(), MaterialError> {
         if let Some(entry) = &self.preset {
             let preset = find_preset(entry)?;
-            // A preset starts from the defaults of fur, whatever coat was there.
-            if preset.section.is_fur() {
-                material.fur = None;
+            // A preset starts from the defaults of its kind, whatever coat or cloth was there.
+            if preset.section.kind.is_some() {
+                (material.fur, material.cloth) = (None, None);
             }
             preset.section.apply(material, textures)?;
         }
-        match self.kind {
-            Some(Coat::Fur) => {
-                material.fur.get_or_insert_default();
-            }
-            Some(Coat::Standard) => material.fur = None,
-            None => {}
+        if let Some(kind) = self.kind.filter(|kind| *kind != material.kind()) {
+            material.cloth = Cloth::of_kind(kind);
+            material.fur = (kind == "fur").then(Fur::default);
         }
         for entry in &self.entries {
             let Entry { key, value, .. } = entry;
-            let done = match &mut material.fur {
-                Some(fur) if Fur::parameter(key).is_some() => fur.set(key, value, textures),
+            let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
+            let done = match (&mut material.fur, &mut material.cloth) {
+                (Some(fur), _) if Fur::parameter(key).is_some() => fur.set(key, value, textures),
+                (None, Some(cloth)) if has(cloth.parameters()) => cloth.set(key, value, textures),
                 _ if Standard::parameter(key).is_some() => material.standard.set(key, value, textures),
-                None if Fur::parameter(key).is_some() => Err(ParameterError::FurOnly { key: key.clone() }),
-                _ => Err(unknown(key)),
+                _ => Err(foreign(key)),
             };
             done.map_err(|problem| entry.error(problem))?;
         }
@@ -175,18 +166,16 @@ impl Section {
         match (entry.key.as_str(), &entry.value) {
             ("preset", Value::Text(_)) => self.preset = Some(entry),
             ("kind", Value::Text(kind)) => {
-                self.kind = Some(match kind.as_str() {
-                    "fur" => Coat::Fur,
-                    "standard" => Coat::Standard,
-                    _ => {
-                        return Err(entry.error(ParameterError::NotAChoice {
-                            key: "kind".to_owned(),
-                            found: kind.clone(),
-                            choices: &["fur", "standard"],
-                            nearest: nearest(kind, ["fur", "standard"]).map(str::to_owned),
-                        }));
-                    }
-                });
+                let known = || KINDS.iter().map(|(kind, _)| *kind);
+                self.kind = known().find(|known| known == kind);
+                if self.kind.is_none() {
+                    return Err(entry.error(ParameterError::NotAChoice {
+                        key: "kind".to_owned(),
+                        found: kind.clone(),
+                        choices: known().collect(),
+                        nearest: nearest(kind, known()).map(str::to_owned),
+                    }));
+                }
             }
             ("surface", Value::Table(keys)) => {
                 for (key, value) in keys {
@@ -228,8 +217,14 @@ fn find_preset(entry: &Entry) -> Result<&'static preset::Preset, MaterialError> 
     preset::find(name, &entry.place)
 }
 
-fn unknown(key: &str) -> ParameterError {
-    let names = Fur::PARAMETERS.iter().chain(Standard::PARAMETERS).map(|parameter| parameter.name);
+/// The error for a key that neither the material's kind nor the surface has.
+fn foreign(key: &str) -> ParameterError {
+    let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
+    let kinds: Vec<_> = KINDS.iter().filter(|(_, list)| has(list)).map(|(kind, _)| *kind).collect();
+    if !kinds.is_empty() {
+        return ParameterError::OfOtherKind { key: key.to_owned(), kinds };
+    }
+    let names = KINDS.iter().flat_map(|(_, list)| list.iter().map(|parameter| parameter.name));
     let names = names.chain(["preset", "kind", "surface"]);
     ParameterError::Unknown { key: key.to_owned(), nearest: nearest(key, names).map(str::to_owned) }
 }

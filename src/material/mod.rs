@@ -3,6 +3,7 @@
 //! Every family declares its parameters once, through [`parameters!`](crate::parameters); look files, glTF extras and
 //! presets all end in [`Family::set`]. Nothing here knows the GPU.
 
+mod cloth;
 mod error;
 mod fur;
 pub mod kind;
@@ -12,12 +13,14 @@ pub mod parameter;
 mod preset;
 pub mod procedural;
 pub mod reference;
+mod satin;
 mod schema;
 mod skin;
 mod standard;
 mod texture;
 mod value;
 
+pub use cloth::{Cloth, KINDS};
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
 pub use kind::{Choice, Form, Length, TextureSource};
@@ -25,6 +28,7 @@ pub use look::Look;
 pub use nearest::nearest;
 pub use parameter::{Family, Parameter, ParameterError};
 pub use preset::{Preset, presets};
+pub use satin::Satin;
 pub use schema::look_schema;
 pub use standard::{AlphaMode, Standard};
 pub use texture::{ImageName, ReadImage};
@@ -40,8 +44,21 @@ pub struct Material {
     pub name: String,
     /// The surface.
     pub standard: Standard,
+    /// What it is woven of, where that is more than the standard surface. Not seen under a coat, whose skin is standard.
+    pub cloth: Option<Cloth>,
     /// The coat on it, if it has one.
     pub fur: Option<Fur>,
+}
+
+impl Material {
+    /// What files call it: one of [`KINDS`].
+    pub fn kind(&self) -> &'static str {
+        match (&self.fur, &self.cloth) {
+            (Some(_), _) => "fur",
+            (None, Some(cloth)) => cloth.kind(),
+            (None, None) => "standard",
+        }
+    }
 }
 
 /// The materials of a file, one per [`Asset::materials`], with the look keys that the file itself carries
@@ -54,7 +71,7 @@ pub fn from_asset(asset: &mut Asset, read_image: ReadImage) -> Result<Vec<Materi
     let mut keys = Vec::new();
     for (index, source) in asset.materials.iter_mut().enumerate() {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
-        materials.push(Material { name, standard: Standard::from(&*source), fur: None });
+        materials.push(Material { name, standard: Standard::from(&*source), ..Material::default() });
         if let Some(vair) = source.vair.clone() {
             keys.push((index, vair));
         }

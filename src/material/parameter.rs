@@ -40,11 +40,13 @@ pub enum ParameterError {
         /// The name that was probably meant.
         nearest: Option<String>,
     },
-    /// A name of another kind of material.
-    #[error("`{key}` is a key of fur: add kind = \"fur\" or a fur preset")]
-    FurOnly {
+    /// A name of other kinds of material.
+    #[error("`{key}` is a key of {}: add kind = \"{}\" or a preset of that kind", kinds.join(", "), kinds.join("\" or \""))]
+    OfOtherKind {
         /// As written.
         key: String,
+        /// The kinds that have it.
+        kinds: Vec<&'static str>,
     },
     /// The wrong type of value.
     #[error("`{key}` is {found}, but takes {expected}")]
@@ -64,7 +66,7 @@ pub enum ParameterError {
         /// What it was given.
         found: String,
         /// What it takes.
-        choices: &'static [&'static str],
+        choices: Vec<&'static str>,
         /// The name that was probably meant.
         nearest: Option<String>,
     },

@@ -17,9 +17,9 @@ pub struct Preset {
 }
 
 impl Preset {
-    /// "fur" or "standard".
-    pub fn kind(&self) -> &str {
-        if self.section.is_fur() { "fur" } else { "standard" }
+    /// The kind of material that it makes, one of [`KINDS`](super::KINDS).
+    pub fn kind(&self) -> &'static str {
+        self.section.kind().unwrap_or("standard")
     }
 
     /// The keys that it sets, with their values.

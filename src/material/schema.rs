@@ -2,7 +2,7 @@
 
 use super::kind::Form;
 use super::parameter::{Family, Parameter};
-use super::{Fur, Standard, presets, procedural};
+use super::{KINDS, Standard, presets, procedural};
 use crate::asset::MAX_UV_SETS;
 use serde_json::{Map, Value, json};
 
@@ -10,17 +10,21 @@ use serde_json::{Map, Value, json};
 /// are also those of `extras.vair` and `extensions.VAIR_material` in glTF.
 pub fn look_schema() -> Value {
     let surface = properties(Standard::PARAMETERS);
-    let mut keys = surface.clone();
-    for (name, fur) in properties(Fur::PARAMETERS) {
-        // A key that both have means the coat where there is one, and the surface where there is none.
-        let either = match keys.remove(&name) {
-            Some(surface) if surface != fur => json!({ "anyOf": [fur, surface] }),
-            _ => fur,
-        };
-        keys.insert(name, either);
+    // A key that several kinds have means the material's own.
+    let mut meanings: Map<String, Value> = Map::new();
+    for (name, meaning) in KINDS.iter().flat_map(|(_, list)| properties(list)) {
+        let known = meanings.entry(name).or_insert_with(|| json!([]));
+        if let Some(known) = known.as_array_mut().filter(|known| !known.contains(&meaning)) {
+            known.push(meaning);
+        }
     }
+    let one_or_any = |(name, meanings): (String, Value)| match meanings.as_array().map(Vec::as_slice) {
+        Some([one]) => (name, one.clone()),
+        _ => (name, json!({ "anyOf": meanings })),
+    };
+    let mut keys: Map<String, Value> = meanings.into_iter().map(one_or_any).collect();
     keys.insert("preset".to_owned(), json!({ "enum": preset_names(), "description": "Where the other keys start." }));
-    keys.insert("kind".to_owned(), json!({ "enum": ["fur", "standard"] }));
+    keys.insert("kind".to_owned(), json!({ "enum": KINDS.iter().map(|(kind, _)| *kind).collect::<Vec<_>>() }));
     let surface_text = "Keys of the surface under a coat.";
     keys.insert(
         "surface".to_owned(),
@@ -113,7 +117,7 @@ mod tests {
     fn every_parameter_has_its_place() {
         let schema = look_schema();
         let keys = &schema["$defs"]["material"]["properties"];
-        for parameter in Fur::PARAMETERS.iter().chain(Standard::PARAMETERS) {
+        for parameter in KINDS.iter().flat_map(|(_, list)| *list) {
             assert!(keys[parameter.name].is_object(), "{}", parameter.name);
         }
         for parameter in Standard::PARAMETERS {

@@ -88,6 +88,12 @@ impl Stage {
     fn add_surface(&mut self, scene: &Scene, instance: &Instance, joints: &[Mat4]) -> Result<(), OracleError> {
         let material = &scene.materials()[instance.material];
         let standard = scene.standard(instance.material, material.fur.is_some());
+        if let Some(cloth) = scene.cloth(instance.material, material.fur.is_some()) {
+            return Err(unsupported(
+                &material.name,
+                &format!("the reference knows no {}; use kind = \"standard\"", cloth.kind()),
+            ));
+        }
         let unsupported_maps = [
             ("metallic_roughness_texture", standard.metallic_roughness_texture),
             ("normal_texture", standard.normal_texture),

@@ -93,13 +93,14 @@ impl FrameData {
         draw: &Draw,
     ) -> Result<(), GpuError> {
         let DrawKind::Fur { material, layers } = draw.kind else { return Ok(()) };
-        let Material { standard, fur: Some(fur), name } = &scene.materials()[material] else { return Ok(()) };
+        let Material { standard, fur: Some(fur), name, .. } = &scene.materials()[material] else { return Ok(()) };
         let instance = &plan.instances[draw.instance];
         let force = force_in_world(fur, scene, instance, pose);
         let values = fur_uniforms(fur, standard, scene.size(instance), layers, force);
         let uniforms = filled(gpu, "fur", vk::BufferUsageFlags::UNIFORM_BUFFER, &[values])?;
         let spec = &plan.pipelines[draw.pipeline];
-        let group = resources.bind_material(scene, spec, name, ("FurBlock", &uniforms), &fur_maps(fur, standard))?;
+        let group =
+            resources.bind_material(scene, spec, name, &[("FurBlock", &uniforms)], &fur_maps(fur, standard), &[])?;
         self.coat_groups.insert((draw.instance, draw.pipeline), group);
         Ok(())
     }

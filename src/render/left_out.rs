@@ -1,5 +1,6 @@
 //! What a frame does without and why: everything that there is, less what the plan lists.
 
+use super::cloth::cloth_shader;
 use super::map::{fur_maps, surface_maps};
 use super::options::FrameOptions;
 use super::pipeline::shader;
@@ -145,7 +146,11 @@ fn has_map(plan: &Plan, scene: &Scene, family: &str, stem: &str) -> bool {
         let material = &scene.materials()[instance.material];
         let maps = match &material.fur {
             Some(fur) if family == "fur" => fur_maps(fur, &material.standard).to_vec(),
-            coat => surface_maps(&scene.standard(instance.material, coat.is_some())).to_vec(),
+            coat => {
+                let standard = scene.standard(instance.material, coat.is_some());
+                let cloth = scene.cloth(instance.material, coat.is_some());
+                surface_maps(&standard, cloth.map(|cloth| cloth_shader(cloth, &standard)).as_ref())
+            }
         };
         maps.iter().any(|map| map.name == stem && map.texture.is_some())
     })

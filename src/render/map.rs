@@ -1,5 +1,6 @@
 //! Maps of materials, and what stands in where a shader has a map and the material has not.
 
+use super::cloth::ClothShader;
 use crate::asset::TextureRef;
 use crate::material::{Fur, Standard};
 
@@ -47,11 +48,13 @@ impl StandIn {
 }
 
 impl Map {
-    fn color(name: &'static str, constant: &'static str, texture: Option<TextureRef>) -> Self {
+    /// A map of colours.
+    pub fn color(name: &'static str, constant: &'static str, texture: Option<TextureRef>) -> Self {
         Self { srgb: true, ..Self::data(name, constant, texture) }
     }
 
-    fn data(name: &'static str, constant: &'static str, texture: Option<TextureRef>) -> Self {
+    /// A map of numbers.
+    pub fn data(name: &'static str, constant: &'static str, texture: Option<TextureRef>) -> Self {
         Self { name, constant, texture, srgb: false, stand_in: StandIn::White }
     }
 
@@ -60,8 +63,15 @@ impl Map {
     }
 }
 
-/// Maps of a surface.
-pub fn surface_maps(standard: &Standard) -> [Map; 7] {
+/// Maps of a surface: those that every surface may have, and those of its family of cloth.
+pub fn surface_maps(standard: &Standard, cloth: Option<&ClothShader>) -> Vec<Map> {
+    let mut maps = standard_maps(standard).to_vec();
+    maps.extend(cloth.into_iter().flat_map(|cloth| &cloth.maps));
+    maps
+}
+
+/// Maps of the standard surface.
+pub fn standard_maps(standard: &Standard) -> [Map; 7] {
     [
         Map::color("base_color", "HAS_BASE_COLOR_MAP", standard.base_color_texture),
         Map::data("metallic_roughness", "HAS_METALLIC_ROUGHNESS_MAP", standard.metallic_roughness_texture),

@@ -29,7 +29,7 @@ pub fn standard_uniforms(standard: &Standard) -> StandardUniforms {
 }
 
 /// KHR_texture_transform as two rows: translation * rotation * scale.
-fn transform(map: Option<TextureRef>) -> TextureTransform {
+pub fn transform(map: Option<TextureRef>) -> TextureTransform {
     let Some(map) = map else {
         return TextureTransform { row_u: [1.0, 0.0, 0.0], row_v: [0.0, 1.0, 0.0], ..Default::default() };
     };

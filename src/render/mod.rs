@@ -3,6 +3,7 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod cloth;
 mod count;
 mod file;
 mod frame;
@@ -22,6 +23,7 @@ mod report;
 mod resources;
 mod stream;
 mod sway;
+mod table;
 mod targets;
 mod texture;
 
@@ -39,6 +41,7 @@ pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
 pub use report::{CoatReport, CpuPhases, FrameReport};
 pub use stream::Stream;
+pub use table::Table;
 pub use targets::Attachment;
 
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};

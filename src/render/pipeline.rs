@@ -1,8 +1,10 @@
 //! Which pipeline a draw needs: shader permutations, constants and fixed state, decided before the device is
 //! asked. Two draws that need the same are equal here.
 
+use super::cloth::ClothShader;
 use super::map::{Map, fur_maps, surface_maps};
 use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap};
+use super::table::Table;
 use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
 use crate::material::{AlphaMode, Blend, Fur, Shape, Standard};
@@ -86,13 +88,21 @@ fn alpha_constant(mode: AlphaMode) -> u32 {
 }
 
 impl PipelineSpec {
-    /// The pipeline that shows `standard` on `primitive`.
-    pub fn surface(standard: &Standard, primitive: &Primitive, options: &FrameOptions) -> Self {
+    /// The pipeline that shows `standard`, woven as `cloth` says, on `primitive`.
+    pub fn surface(
+        standard: &Standard,
+        cloth: Option<&ClothShader>,
+        primitive: &Primitive,
+        options: &FrameOptions,
+    ) -> Self {
         let vertices = &primitive.vertices;
         let unlit = standard.unlit || vertices.normals.is_empty();
         let has_uv = !vertices.uv_sets.is_empty();
         let has_tangent = !vertices.tangents.is_empty();
-        let maps = surface_maps(standard);
+        // Without light there is nothing to tell a cloth by.
+        let cloth = cloth.filter(|_| !unlit);
+        let maps = surface_maps(standard, cloth);
+        let is_of_cloth = |map: &Map| cloth.is_some_and(|cloth| cloth.maps.iter().any(|own| own.name == map.name));
         let is_shown = |map: &Map| match map.name {
             "base_color" => has_uv,
             "normal" | "detail_albedo" | "detail_normal" => has_uv && has_tangent && !unlit,
@@ -103,28 +113,39 @@ impl PipelineSpec {
         let everything =
             options.everything && maps.iter().all(|map| map.texture.is_none() || is_shown(map) || needs_light(map));
         let is_sampled = |map: &&Map| match everything {
-            true => !needs_light(map),
+            // What would stand in for a map of cloth is another look.
+            true => !needs_light(map) && (!is_of_cloth(map) || map.texture.is_some()),
             false => map.texture.is_some() && is_shown(map),
         };
         let sampled: Vec<&Map> = maps.iter().filter(is_sampled).collect();
         let has = |name: &str| sampled.iter().any(|map| map.name == name);
         let detail = has("detail_albedo") || has("detail_normal");
-        let tangent = detail || has("normal");
+        let own_maps = sampled.iter().any(|map| is_of_cloth(map));
+        let tangent = detail || has("normal") || cloth.is_some();
         let uv = !sampled.is_empty();
         let color = everything || !vertices.colors.is_empty();
-        let blend = standard.alpha_mode == AlphaMode::Blend;
+        let blends = cloth.is_some_and(|cloth| cloth.blends);
+        let blend = standard.alpha_mode == AlphaMode::Blend || blends;
 
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("COLOR", color)];
-        let fragment_defines =
-            [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("DETAIL", detail), ("COLOR", color)];
+        let fragment_defines = [
+            ("UNLIT", unlit),
+            ("UV", uv),
+            ("TANGENT", tangent),
+            ("DETAIL", detail),
+            ("MAPS", own_maps),
+            ("COLOR", color),
+        ];
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
         }
         constants.extend(sampled.iter().map(|map| (map.constant, 1)));
+        constants.extend(cloth.into_iter().flat_map(|cloth| &cloth.constants).filter(|(_, value)| *value != 0));
+        let file = cloth.map_or("standard.frag", |cloth| cloth.file);
         Self {
             vertex: permutation("standard.vert", &vertex_defines),
-            fragment: permutation("standard.frag", &fragment_defines),
+            fragment: permutation(file, &fragment_defines),
             constants,
             topology: primitive.topology,
             blend,
@@ -179,8 +200,10 @@ impl PipelineSpec {
     /// decides where they are and how much of them survives, and tests depth by itself.
     pub fn counting(&self) -> Self {
         let (file, defines) = self.fragment.split_once('+').unwrap_or((&self.fragment, ""));
-        // The colours of vertices reach a coat's length, and no further.
-        let kept: &[&str] = if file == "fur.frag" { &["MAPS"] } else { &["UV", "COLOR"] };
+        // The colours of vertices reach a coat's length, and no further. Of a surface it is the base colour's opacity
+        // that decides, whatever it is woven of.
+        let (file, kept): (_, &[&str]) =
+            if file == "fur.frag" { (file, &["MAPS"]) } else { ("standard.frag", &["UV", "COLOR"]) };
         let kept = kept.iter().map(|define| (*define, defines.split('+').any(|given| given == *define)));
         let fragment = permutation(file, &[("COUNT", true)].into_iter().chain(kept).collect::<Vec<_>>());
         let stages = [shader(&self.vertex), shader(&fragment)];
@@ -221,6 +244,11 @@ impl PipelineSpec {
     /// Whether its shaders have the map's bindings, sampled or not.
     pub fn binds_map(&self, map: &Map) -> bool {
         self.bindings().contains(format!("{}_map", map.name).as_str())
+    }
+
+    /// Whether its shaders look something up in the table.
+    pub fn binds_table(&self, table: &Table) -> bool {
+        self.bindings().contains(format!("{}_table", table.name).as_str())
     }
 
     /// Names of its descriptors.

@@ -4,11 +4,13 @@
 //! The plan is plain data made from scene and options alone, so it can be printed (`vair inspect`) and tested
 //! without a GPU; the resources make exactly what it lists and nothing else.
 
+use super::cloth::cloth_shader;
 use super::left_out::{LeftOut, left_out};
 use super::map::{Map, StandIn, fur_maps, surface_maps};
 use super::options::{FrameOptions, ShellSubmission};
 use super::pipeline::{ComputeSpec, PipelineSpec, shader};
 use super::stream::{Stream, inputs};
+use super::table::Table;
 use super::targets::Attachment;
 use crate::asset::{Asset, Primitive, Sampler, Topology};
 use crate::material::{AlphaMode, Fur, Standard};
@@ -145,6 +147,8 @@ pub struct Plan {
     pub textures: BTreeSet<TextureUse>,
     /// Texels bound where a pipeline has a map that the material has not.
     pub stand_ins: BTreeSet<StandIn>,
+    /// Look-up tables to upload, by name.
+    pub tables: BTreeMap<&'static str, &'static Table>,
     /// Samplers of the textures, each once.
     pub samplers: Vec<Sampler>,
     /// What this frame does without.
@@ -177,8 +181,11 @@ impl Plan {
 
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
-        let spec = PipelineSpec::surface(&standard, geometry, options);
-        self.add_textures(scene, &spec, &surface_maps(&standard));
+        let cloth = scene.cloth(surface.material, surface.under_fur).map(|cloth| cloth_shader(cloth, &standard));
+        let spec = PipelineSpec::surface(&standard, cloth.as_ref(), geometry, options);
+        self.add_textures(scene, &spec, &surface_maps(&standard, cloth.as_ref()));
+        let tables = cloth.into_iter().flat_map(|cloth| cloth.tables);
+        self.tables.extend(tables.filter(|table| spec.binds_table(table)).map(|table| (table.name, table)));
         self.add_draw(scene, index, spec, DrawKind::Surface(surface), options);
 
         if let Some(fur) = fur {
@@ -251,7 +258,7 @@ impl Plan {
         }
         if !self.pipelines.iter().any(|spec| spec.blend) {
             let blending = Standard { alpha_mode: AlphaMode::Blend, ..standard.into_owned() };
-            self.pipelines.push(PipelineSpec::surface(&blending, geometry(instance), options));
+            self.pipelines.push(PipelineSpec::surface(&blending, None, geometry(instance), options));
         }
     }
 

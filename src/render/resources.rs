@@ -1,6 +1,7 @@
 //! What a scene keeps on the device: streams, indices, images, materials, pipelines. Each is made when a plan
 //! first lists it and kept for the frames after.
 
+use super::cloth::cloth_shader;
 use super::geometry::{index_bytes, morph_delta_bytes, stream_bytes};
 use super::map::{Map, StandIn, surface_maps};
 use super::material::standard_uniforms;
@@ -8,6 +9,7 @@ use super::memory::{index_name, stream_name};
 use super::pipeline::{ComputeSpec, PipelineSpec};
 use super::plan::{DrawKind, Plan, SurfaceUse, TextureUse};
 use super::stream::{ABSENT, Stream};
+use super::table::Table;
 use super::texture::mip_levels;
 use crate::asset::{self, Wrap};
 use crate::gpu::{
@@ -24,6 +26,10 @@ const LEAST_BYTES: u64 = 4;
 /// One texel needs no filter, and floats of 32 bits may have none.
 const STAND_IN_SAMPLER: asset::Sampler =
     asset::Sampler { wrap: [Wrap::Repeat; 2], mag_linear: false, min_linear: false, mip_linear: None };
+
+/// Of every table.
+const TABLE_SAMPLER: asset::Sampler =
+    asset::Sampler { wrap: [Wrap::Clamp; 2], mag_linear: true, min_linear: true, mip_linear: None };
 
 /// Index of a primitive: mesh, primitive of the mesh.
 pub type PrimitiveIndex = (usize, usize);
@@ -44,6 +50,7 @@ pub struct Resources {
     images: HashMap<TextureUse, Image>,
     /// One texel each.
     stand_ins: HashMap<StandIn, Image>,
+    tables: HashMap<&'static str, Image>,
     samplers: HashMap<asset::Sampler, Sampler>,
     surfaces: HashMap<(SurfaceUse, PipelineSpec), BindGroup>,
     pipelines: HashMap<PipelineSpec, Pipeline>,
@@ -62,6 +69,7 @@ impl Resources {
             absent: None,
             images: HashMap::new(),
             stand_ins: HashMap::new(),
+            tables: HashMap::new(),
             samplers: HashMap::new(),
             surfaces: HashMap::new(),
             pipelines: HashMap::new(),
@@ -79,6 +87,7 @@ impl Resources {
         self.prepare_deform_sources(&mut upload, scene, plan)?;
         self.prepare_images(&mut upload, scene, plan)?;
         self.prepare_stand_ins(&mut upload, plan)?;
+        self.prepare_tables(&mut upload, plan)?;
         for spec in &plan.pipelines {
             self.make_pipeline(spec)?;
         }
@@ -91,7 +100,7 @@ impl Resources {
         upload.finish()
     }
 
-    /// Drops what belongs to one scene; pipelines, samplers and stand-ins serve the next one, too.
+    /// Drops what belongs to one scene; pipelines, samplers, stand-ins and tables serve the next one, too.
     pub fn forget_scene(&mut self) {
         self.streams.clear();
         self.indices.clear();
@@ -146,7 +155,7 @@ impl Resources {
         (&self.images[&TextureUse { image: texture.image, srgb: map.srgb }], &self.samplers[&texture.sampler])
     }
 
-    /// The material bind group (set 1) of a pipeline: its uniform block and what it declares of the maps.
+    /// The material bind group (set 1) of a pipeline: its uniform blocks and what it declares of maps and tables.
     ///
     /// # Errors
     /// When the device is out of memory.
@@ -155,16 +164,27 @@ impl Resources {
         scene: &Scene,
         spec: &PipelineSpec,
         name: &str,
-        block: (&str, &Buffer),
+        blocks: &[(&str, &Buffer)],
         maps: &[Map],
+        tables: &[&Table],
     ) -> Result<BindGroup, GpuError> {
         let names: Vec<_> =
             maps.iter().map(|map| (format!("{}_map", map.name), format!("{}_sampler", map.name))).collect();
-        let mut offered = vec![(block.0, Resource::Buffer(block.1))];
+        let mut offered: Vec<_> = blocks.iter().map(|(name, buffer)| (*name, Resource::Buffer(buffer))).collect();
         for (map, (texture_name, sampler_name)) in maps.iter().zip(&names).filter(|(map, _)| spec.binds_map(map)) {
             let (image, sampler) = self.map(scene, spec, map);
             offered.push((texture_name, Resource::Texture(image)));
             offered.push((sampler_name, Resource::Sampler(sampler)));
+        }
+        let names: Vec<_> = tables
+            .iter()
+            .map(|table| (format!("{}_table", table.name), format!("{}_table_sampler", table.name)))
+            .collect();
+        for (table, (texture_name, sampler_name)) in
+            tables.iter().zip(&names).filter(|(table, _)| spec.binds_table(table))
+        {
+            offered.push((texture_name, Resource::Texture(&self.tables[table.name])));
+            offered.push((sampler_name, Resource::Sampler(&self.samplers[&TABLE_SAMPLER])));
         }
         self.gpu.bind_group(self.pipeline(spec), 1, name, &offered)
     }
@@ -271,6 +291,18 @@ impl Resources {
         Ok(())
     }
 
+    fn prepare_tables(&mut self, upload: &mut Upload, plan: &Plan) -> Result<(), GpuError> {
+        for (name, table) in &plan.tables {
+            if !self.tables.contains_key(name) {
+                let levels = [Cow::Owned(table.bytes())];
+                let image = filled_image(&self.gpu, upload, name, table.size, Table::FORMAT, &levels)?;
+                self.tables.insert(name, image);
+            }
+            self.make_sampler(&TABLE_SAMPLER)?;
+        }
+        Ok(())
+    }
+
     fn make_sampler(&mut self, sampler: &asset::Sampler) -> Result<(), GpuError> {
         if !self.samplers.contains_key(sampler) {
             self.samplers.insert(*sampler, self.gpu.sampler(&sampler_desc(sampler))?);
@@ -291,8 +323,17 @@ impl Resources {
             let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
             let bytes = standard_uniforms(&standard);
             let uniforms = filled_buffer(&self.gpu, upload, name, usage, bytemuck::bytes_of(&bytes))?;
+            let mut blocks = vec![("StandardBlock", &uniforms)];
+            let cloth = scene.cloth(surface.material, surface.under_fur).map(|cloth| cloth_shader(cloth, &standard));
+            let cloth = cloth.filter(|cloth| spec.bindings().contains(cloth.block));
+            let own = cloth
+                .as_ref()
+                .map(|cloth| filled_buffer(&self.gpu, upload, name, usage, &cloth.uniforms))
+                .transpose()?;
+            blocks.extend(cloth.as_ref().zip(own.as_ref()).map(|(cloth, own)| (cloth.block, own)));
+            let tables = cloth.as_ref().map_or(&[][..], |cloth| &cloth.tables);
             let group =
-                self.bind_material(scene, spec, name, ("StandardBlock", &uniforms), &surface_maps(&standard))?;
+                self.bind_material(scene, spec, name, &blocks, &surface_maps(&standard, cloth.as_ref()), tables)?;
             self.surfaces.insert(key, group);
         }
         Ok(())

@@ -3,8 +3,10 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
-use crate::asset::{self, Asset, AssetError, Image, LoadOptions, generate_tangents, tangent_bytes};
-use crate::material::{self, Look, Material, Standard};
+use crate::asset::{
+    self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
+};
+use crate::material::{self, Cloth, Look, Material, Standard};
 use crate::math::{Aabb, Hull};
 use crate::scene::{Instance, instances};
 use glam::Vec3;
@@ -150,6 +152,14 @@ impl Scene {
         }
     }
 
+    /// What the surface of a material is woven of; the skin under fur is standard.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn cloth(&self, material: usize, under_fur: bool) -> Option<&Cloth> {
+        self.materials[material].cloth.as_ref().filter(|_| !under_fur)
+    }
+
     /// Outline of a scene and its coats over a whole clip, so that a sequence is framed once and every frame of it alike;
     /// of the rest pose without a clip.
     pub fn outline(&self, scene: usize, animation: Option<usize>) -> Hull {
@@ -263,22 +273,30 @@ fn new_id() -> u64 {
     NEXT_ID.fetch_add(1, Ordering::Relaxed)
 }
 
-/// A look may put a normal map where the file had none. Where no tangents can be made, a warning says why.
+/// A look may put a normal map, or cloth, where the file had none. Threads run along u, or around the vertical where there
+/// are no texture coordinates; a normal map needs them, and a warning says where they lack.
 fn add_missing_tangents(asset: &mut Asset, materials: &[Material], budget: &mut Budget) -> Result<(), AssetError> {
     for (m, mesh) in asset.meshes.iter_mut().enumerate() {
         for (p, primitive) in mesh.primitives.iter_mut().enumerate() {
             let variants = primitive.variant_materials.iter().map(|&(_, material)| material);
-            let wanted = std::iter::once(primitive.material).chain(variants).find_map(|material| {
-                let standard = &materials[material].standard;
+            let used = || std::iter::once(primitive.material).chain(variants.clone()).map(|index| &materials[index]);
+            let map = used().find_map(|Material { standard, .. }| {
                 standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture)
             });
-            let Some(map) = wanted.filter(|_| primitive.vertices.tangents.is_empty()) else { continue };
+            let is_woven = used().any(|material| material.cloth.is_some());
+            if !primitive.vertices.tangents.is_empty() || map.is_none() && !is_woven {
+                continue;
+            }
             let field = format!("meshes[{m}].primitives[{p}]");
             let (kept_bytes, scratch_bytes) = tangent_bytes(primitive);
             budget.check(&field, kept_bytes.saturating_add(scratch_bytes))?;
-            match generate_tangents(primitive, map.uv_set as usize) {
+            match generate_tangents(primitive, map.map_or(0, |map| map.uv_set as usize)) {
                 Ok(()) => budget.spend(&field, kept_bytes)?,
+                Err(_) if map.is_none() => generate_tangents_around_vertical(primitive),
                 Err(reason) => {
+                    if is_woven {
+                        generate_tangents_around_vertical(primitive);
+                    }
                     let warning = format!("{field}: {reason}");
                     if !asset.warnings.contains(&warning) {
                         asset.warnings.push(warning);

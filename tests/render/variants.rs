@@ -5,8 +5,8 @@ use crate::headless::headless;
 use crate::stage::{Stage, at, options, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
-use vair::asset::{AlphaMode, Animation, Material, Primitive, Topology};
-use vair::material::{Blend, Fur, Shape};
+use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
+use vair::material::{Blend, Cloth, Form, Fur, ImageName, Shape, TextureSource, Value};
 use vair::render::{FrameOptions, Shot};
 use vair::scene::Scene;
 use vair::shader::table;
@@ -68,6 +68,51 @@ fn surfaces() -> Scene {
     scene
 }
 
+/// One quad for each thing that a cloth's shader may have, of every family.
+fn cloths() -> Scene {
+    let mut stage = Stage::front(0.5);
+    let map = stage.texel([128, 128, 255, 255]);
+    let mut dressed = Vec::new();
+    for cloth in Cloth::KINDS.iter().filter_map(|kind| Cloth::of_kind(kind)) {
+        for has_color in [false, true] {
+            for (textured, detailed, own_maps) in [
+                (false, false, false),
+                (true, false, false),
+                (true, true, false),
+                (false, false, true),
+                (false, true, true),
+            ] {
+                let base_color_texture = textured.then_some(map);
+                let material = stage.material(Material { base_color_texture, ..plain() });
+                stage.object(colored(has_color), material, at(Vec3::ZERO));
+                dressed.push((material, cloth.clone(), detailed, own_maps));
+            }
+        }
+    }
+    let mut scene = stage.scene();
+    for (material, cloth, detailed, own_maps) in dressed {
+        let material = &mut scene.materials_mut()[material];
+        material.standard.detail_normal_texture = detailed.then_some(map);
+        material.cloth = Some(if own_maps { with_every_map(cloth, map) } else { cloth });
+    }
+    scene
+}
+
+/// The cloth with that texture for every map that it declares.
+fn with_every_map(mut cloth: Cloth, map: TextureRef) -> Cloth {
+    struct One(usize);
+    impl TextureSource for One {
+        fn texture(&mut self, _: &ImageName) -> Result<usize, String> {
+            Ok(self.0)
+        }
+    }
+    for parameter in cloth.parameters().iter().filter(|parameter| parameter.form == Form::Map) {
+        let value = Value::Text("any.png".to_owned());
+        cloth.set(parameter.name, &value, &mut One(map.texture)).unwrap_or_else(|error| panic!("{error}"));
+    }
+    cloth
+}
+
 /// One coat for each thing that a coat may have.
 fn coats() -> Scene {
     let mut stage = Stage::front(0.5);
@@ -112,7 +157,7 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     let mut skin_alone = bent_tube(true).asset().clone();
     skin_alone.meshes[0].primitives[0].morph_targets.clear();
     let skin_alone = Scene::from_asset(skin_alone).unwrap();
-    let scenes = [surfaces(), coats(), bent_tube(true), bent_tube(false), skin_alone];
+    let scenes = [surfaces(), cloths(), coats(), bent_tube(true), bent_tube(false), skin_alone];
     // The last pass is not planned: it depends on the target.
     let mut used = BTreeSet::from(["tonemap.vert".to_owned(), "tonemap.frag".to_owned()]);
     headless(|device| {

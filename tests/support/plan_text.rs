@@ -61,6 +61,9 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
         let coding = if texture.srgb { "colour" } else { "data" };
         line(format!("  {:?}, {coding}", scene.asset().images[texture.image].name));
     }
+    if !plan.tables.is_empty() {
+        line(format!("tables: {:?}", plan.tables.keys()));
+    }
     line(format!("stand-ins: {:?}, absent streams: {}", plan.stand_ins, plan.has_absent_streams));
     line("left out:".to_owned());
     for left_out in &plan.left_out {

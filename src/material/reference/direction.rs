@@ -15,6 +15,14 @@ pub fn frame(normal: DVec3) -> [DVec3; 2] {
     [turned(DVec3::X), turned(DVec3::Y * pole.z)]
 }
 
+/// Tangent and bitangent of the frame around a unit normal whose tangent is `tangent` without its part along the normal;
+/// those of [`frame`] where less than 1e-4 of it is left. A negative `side` mirrors the bitangent.
+pub fn frame_along(normal: DVec3, tangent: DVec3, side: f64) -> [DVec3; 2] {
+    let across = tangent - normal * normal.dot(tangent);
+    let along = if across.length() > 1e-4 { across.normalize() } else { frame(normal)[0] };
+    [along, normal.cross(along) * if side < 0.0 { -1.0 } else { 1.0 }]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! Judges `direction.glsl`.
 
 use super::super::domain::Domain;
-use super::super::twin::Twin;
+use super::super::twin::{Rule, Twin};
 use crate::material::reference::direction;
 
 pub(super) const TWINS: &[Twin] = &[
@@ -15,4 +15,11 @@ pub(super) const TWINS: &[Twin] = &[
         let [tangent, bitangent] = direction::frame(normal);
         [tangent, bitangent, normal].map(|column| column.to_array()).concat()
     }),
+    // A tangent along the normal leaves little that is across.
+    Twin::new("direction_frame_along", &[Domain::Direction, Domain::DirectionOrZero, Domain::Sign], |given| {
+        let (normal, tangent, side) = (given.vec3(), given.vec3(), given.number());
+        let [tangent, bitangent] = direction::frame_along(normal, tangent, side);
+        [tangent, bitangent, normal].map(|column| column.to_array()).concat()
+    })
+    .rule(Rule::Conditioned(2)),
 ];

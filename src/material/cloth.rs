@@ -1,0 +1,77 @@
+//! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
+
+use super::kind::TextureSource;
+use super::parameter::{Family, Parameter, ParameterError};
+use super::satin::Satin;
+use super::value::Value;
+use super::{Fur, Standard};
+
+/// Declares the families: `Variant = "kind"`, with the parameters of the struct of that name.
+macro_rules! cloths {
+    ($($(#[doc = $doc:literal])* $family:ident = $kind:literal;)*) => {
+        /// What a surface is woven of, in the place of the standard surface's lobes.
+        #[derive(Debug, Clone, PartialEq)]
+        #[allow(clippy::large_enum_variant, reason = "a scene has few materials, and their parameters are set by name")]
+        pub enum Cloth {
+            $($(#[doc = $doc])* $family($family),)*
+        }
+
+        impl Cloth {
+            /// What files call the families.
+            pub const KINDS: &'static [&'static str] = &[$($kind,)*];
+
+            /// The family of that kind as it is by default.
+            pub fn of_kind(kind: &str) -> Option<Self> {
+                match kind {
+                    $($kind => Some(Self::$family($family::default())),)*
+                    _ => None,
+                }
+            }
+
+            /// What files call it.
+            pub fn kind(&self) -> &'static str {
+                match self {
+                    $(Self::$family(_) => $kind,)*
+                }
+            }
+
+            /// Its parameters, in the order of declaration.
+            pub fn parameters(&self) -> &'static [Parameter] {
+                match self {
+                    $(Self::$family(_) => $family::PARAMETERS,)*
+                }
+            }
+
+            /// [`Family::set`] of the family that it is.
+            ///
+            /// # Errors
+            /// Those of [`Family::set`].
+            pub fn set(
+                &mut self,
+                key: &str,
+                value: &Value,
+                textures: &mut dyn TextureSource,
+            ) -> Result<(), ParameterError> {
+                match self {
+                    $(Self::$family(family) => family.set(key, value, textures),)*
+                }
+            }
+
+            /// [`Family::clamp`] of the family that it is.
+            pub fn clamp(&mut self) {
+                match self {
+                    $(Self::$family(family) => family.clamp(),)*
+                }
+            }
+        }
+
+        /// Every kind of material and its parameters; the keys of `standard` are those of all.
+        pub const KINDS: &[(&str, &[Parameter])] =
+            &[("standard", Standard::PARAMETERS), ("fur", Fur::PARAMETERS), $(($kind, $family::PARAMETERS),)*];
+    };
+}
+
+cloths! {
+    /// Silk, charmeuse, taffeta: an anisotropic highlight.
+    Satin = "satin";
+}
