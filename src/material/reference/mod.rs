@@ -5,14 +5,17 @@
 //! All directions are unit vectors in the tangent frame (z = normal) and point away from the surface.
 
 pub mod albedo;
+pub mod anisotropy;
 pub mod classic;
 pub mod color;
 pub mod coverage;
 pub mod direction;
+pub mod gauze;
 pub mod ggx;
 pub mod hash;
 pub mod light;
 pub mod lock;
+pub mod satin;
 pub mod standard;
 pub mod strand;
 pub mod sway;

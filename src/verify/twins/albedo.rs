@@ -77,7 +77,7 @@ const ROOT_ROUNDING: f64 = 1304.0 * ULP / 2.0;
 /// Q = root^5, which multiplies the root's error by 5 root^4: the root is small where the terms cancel most.
 pub(super) const FRESNEL_ROUNDING: f64 = 68.0 * ULP / 2.0;
 /// The averages.
-const AVERAGE_ROUNDING: f64 = 173.0 * ULP / 2.0;
+pub(super) const AVERAGE_ROUNDING: f64 = 173.0 * ULP / 2.0;
 
 #[cfg(test)]
 mod tests {

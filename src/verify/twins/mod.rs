@@ -1,13 +1,16 @@
 //! The judges of the shader library, one file a GLSL file.
 
 mod albedo;
+mod anisotropy;
 mod color;
 mod coverage;
 mod direction;
+mod gauze;
 mod ggx;
 mod hash;
 mod light;
 mod lock;
+mod satin;
 mod standard;
 mod strand;
 mod sway;
@@ -18,15 +21,18 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 13] = [
+    let files: [&'static [Twin]; 16] = [
         albedo::TWINS,
+        anisotropy::TWINS,
         color::TWINS,
         coverage::TWINS,
         direction::TWINS,
+        gauze::TWINS,
         ggx::TWINS,
         hash::TWINS,
         light::TWINS,
         lock::TWINS,
+        satin::TWINS,
         standard::TWINS,
         strand::TWINS,
         sway::TWINS,
