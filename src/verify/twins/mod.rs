@@ -5,9 +5,11 @@ mod anisotropy;
 mod color;
 mod coverage;
 mod direction;
+mod film;
 mod gauze;
 mod ggx;
 mod hash;
+mod layered;
 mod light;
 mod lock;
 mod satin;
@@ -21,15 +23,17 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 16] = [
+    let files: [&'static [Twin]; 18] = [
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
         coverage::TWINS,
         direction::TWINS,
+        film::TWINS,
         gauze::TWINS,
         ggx::TWINS,
         hash::TWINS,
+        layered::TWINS,
         light::TWINS,
         lock::TWINS,
         satin::TWINS,

@@ -1,0 +1,111 @@
+//! Twin of `layered.glsl`: the standard surface with the lobes of glTF's material extensions.
+//!
+//! Khronos, KHR_materials_{specular, ior, anisotropy, clearcoat, sheen, diffuse_transmission}. From the top: varnish,
+//! sheen, base. What a layer takes towards the eye or the light, whichever is more, is missing under it.
+
+use super::albedo::Fit;
+use super::anisotropy::Lobe;
+use super::ggx;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// Reflectance at normal incidence of varnish, a dielectric of index 1.5.
+pub const COAT_F0: f64 = 0.04;
+
+/// Reflectance at normal incidence of a dielectric in air; index 0 reflects everything.
+pub fn f0_of_ior(ior: f64) -> f64 {
+    ((ior - 1.0) / (ior + 1.0)).powi(2)
+}
+
+/// GGX widths along and across the direction of anisotropy.
+pub fn widths(roughness: f64, anisotropy: f64) -> (f64, f64) {
+    let alpha = ggx::alpha_of_roughness(roughness);
+    (alpha * (1.0 - anisotropy * anisotropy) + anisotropy * anisotropy, alpha)
+}
+
+/// The base: a lobe over what is scattered to both sides.
+#[derive(Debug, Clone, Copy)]
+pub struct Base {
+    /// The highlight.
+    pub lobe: Lobe,
+    /// Albedo of what is scattered to this side, before the coupling.
+    pub reflected: DVec3,
+    /// And to the other side; both together at most 1.
+    pub transmitted: DVec3,
+}
+
+/// What a material says of a grey base.
+#[derive(Debug, Clone, Copy)]
+pub struct Parameters {
+    /// Linear, [0, 1].
+    pub base_color: f64,
+    /// [0, 1].
+    pub metallic: f64,
+    /// Perceptual, [0, 1].
+    pub roughness: f64,
+    /// [0, 1].
+    pub anisotropy: f64,
+    /// Index of refraction, 0 or at least 1.
+    pub ior: f64,
+    /// Strength of the dielectric's reflection, [0, 1].
+    pub specular: f64,
+    /// Factor on its reflectance at normal incidence, at least 0.
+    pub specular_color: f64,
+    /// Share of the scattered light that goes through, [0, 1].
+    pub diffuse_transmission: f64,
+}
+
+impl Base {
+    /// The base of a material.
+    pub fn new(parameters: &Parameters) -> Self {
+        let Parameters { base_color, metallic, .. } = *parameters;
+        let dielectric = (f0_of_ior(parameters.ior) * parameters.specular_color).min(1.0) * parameters.specular;
+        let mix = |dielectric: f64, metal: f64| dielectric * (1.0 - metallic) + metal * metallic;
+        let lobe = Lobe {
+            f0: DVec3::splat(mix(dielectric, base_color)),
+            f90: mix(parameters.specular, 1.0),
+            alpha: widths(parameters.roughness, parameters.anisotropy),
+        };
+        let through = parameters.diffuse_transmission;
+        Self {
+            lobe,
+            reflected: DVec3::splat(base_color * (1.0 - metallic) * (1.0 - through)),
+            transmitted: DVec3::splat((1.0 - metallic) * through),
+        }
+    }
+
+    /// What is scattered towards `v` of light from `l`, of either side, without its cosine: reciprocal.
+    pub fn scattered(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
+        let left = |w: DVec3| 1.0 - self.lobe.albedo(fit, w.with_z(w.z.abs()));
+        let albedo = if l.z < 0.0 { self.transmitted } else { self.reflected };
+        albedo / PI * left(v) * left(l) / (1.0 - self.lobe.average_albedo(fit)).max(DVec3::splat(1e-4))
+    }
+
+    /// BSDF times the cosine of `l`.
+    pub fn times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
+        self.lobe.times_cosine(fit, v, l) + self.scattered(fit, v, l) * l.z.abs()
+    }
+
+    /// Radiance under constant white radiance 1 from both sides.
+    pub fn ambient(&self, fit: &Fit, v: DVec3) -> DVec3 {
+        let specular = self.lobe.albedo(fit, v);
+        specular + (self.reflected + self.transmitted) * (1.0 - specular)
+    }
+}
+
+/// The lobe of a whole coat of varnish.
+pub fn coat(roughness: f64) -> Lobe {
+    let alpha = ggx::alpha_of_roughness(roughness);
+    Lobe { f0: DVec3::splat(COAT_F0), f90: 1.0, alpha: (alpha, alpha) }
+}
+
+/// What a layer of that strength leaves under it; `albedo` towards the eye and the light.
+pub fn under(strength: f64, albedo: DVec2) -> f64 {
+    (1.0 - strength * albedo.max_element()).clamp(0.0, 1.0)
+}
+
+/// Share of the light from straight behind that comes through, by luminance (Rec. 709).
+pub fn through(transmission: f64, metallic: f64, base_color: DVec3, albedo: DVec3) -> f64 {
+    let luminance = (base_color * (1.0 - albedo)).dot(DVec3::new(0.2126, 0.7152, 0.0722));
+    transmission * (1.0 - metallic) * luminance
+}
