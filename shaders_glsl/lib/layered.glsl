@@ -26,6 +26,19 @@ vec2 layered_widths(float roughness, float anisotropy) {
     return vec2(alpha + (1.0 - alpha) * anisotropy * anisotropy, alpha);
 }
 
+// What the compensated lobe leaves, 1 - E, as a sum of what is not negative: the difference would lose its digits where a
+// lobe takes almost all. Terms as for compensated_albedo.
+vec3 layered_left(vec3 f0, float f90, vec2 terms) {
+    vec3 not_reflected = (1.0 - f90) * terms.y + (1.0 - f0) * (1.0 - terms.y);
+    return not_reflected + (f0 + (f90 - f0) * terms.y) * ((1.0 - f0) * (1.0 - terms.x));
+}
+
+// Its cosine-weighted average; terms as for average_compensated_albedo.
+vec3 layered_average_left(vec3 f0, float f90, vec3 terms) {
+    vec3 shadowed = f0 * (1.0 - terms.y) + (f90 - f0) * (terms.z - terms.x);
+    return (1.0 - f90) * terms.z + (1.0 - f0) * ((1.0 - terms.z) + shadowed);
+}
+
 // The base seen from one direction.
 struct LayeredBase {
     AnisotropicLobe lobe;
@@ -44,10 +57,10 @@ LayeredBase layered_base(vec3 f0, float f90, vec2 widths, vec2 terms, vec3 avera
     s.lobe.compensation = standard_specular_compensation(f0, terms.x);
     s.lobe.alpha_x = widths.x;
     s.lobe.alpha_y = widths.y;
-    s.albedo = compensated_albedo(f0, f90, terms);
+    vec3 left = layered_left(f0, f90, terms);
+    s.albedo = 1.0 - left;
     s.diffuse = reflected + transmitted;
-    vec3 average = average_compensated_albedo(f0, f90, average_terms);
-    vec3 coupling = 0.318309886 * (1.0 - s.albedo) / max(1.0 - average, 1e-4);
+    vec3 coupling = 0.318309886 * left / max(layered_average_left(f0, f90, average_terms), 1e-4);
     s.coupled_reflection = reflected * coupling;
     s.coupled_transmission = transmitted * coupling;
     return s;
@@ -59,8 +72,8 @@ vec3 layered_base_times_cosine(LayeredBase s, vec3 v, vec3 l, vec2 terms) {
     if (v.z <= 0.0) {
         return vec3(0.0);
     }
-    vec3 left = 1.0 - compensated_albedo(s.lobe.f0, s.lobe.f90, terms);
-    vec3 scattered = (l.z < 0.0 ? s.coupled_transmission : s.coupled_reflection) * left * abs(l.z);
+    vec3 coupled = l.z < 0.0 ? s.coupled_transmission : s.coupled_reflection;
+    vec3 scattered = coupled * layered_left(s.lobe.f0, s.lobe.f90, terms) * abs(l.z);
     return anisotropic_lobe_times_cosine(s.lobe, v, l) + scattered;
 }
 

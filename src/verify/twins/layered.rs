@@ -21,6 +21,13 @@ fn albedo(f0: DVec3, f90: f64, terms: DVec2) -> DVec3 {
     f0.lerp(DVec3::splat(f90), terms.y) * f0.lerp(DVec3::ONE, terms.x)
 }
 
+/// The average of the product of the two factors of [`albedo`], term by term.
+fn average(f0: DVec3, f90: f64, averages: DVec3) -> DVec3 {
+    let (both, white, fresnel) = (averages.x, averages.y, averages.z);
+    let rest = f90 - f0;
+    f0 * f0 + f0 * (1.0 - f0) * white + rest * f0 * fresnel + rest * (1.0 - f0) * both
+}
+
 fn vec2(given: &mut Given<'_>) -> (f64, f64) {
     (given.number(), given.number())
 }
@@ -33,16 +40,20 @@ pub(super) const TWINS: &[Twin] = &[
         vec![along, across]
     })
     .limit(2e-5, 0.0),
+    Twin::new("layered_left", &[UNIT, UNIT, UNIT], |given| {
+        let (f0, f90, terms) = (given.vec3(), given.number(), given.vec2());
+        (1.0 - albedo(f0, f90, terms)).to_array().to_vec()
+    }),
+    Twin::new("layered_average_left", &[UNIT, UNIT, UNIT], |given| {
+        let (f0, f90, terms) = (given.vec3(), given.number(), given.vec3());
+        (1.0 - average(f0, f90, terms)).to_array().to_vec()
+    }),
     Twin::new("layered_base", &[UNIT, UNIT, ALPHA, UNIT, UNIT, HALF, HALF], |given| {
-        let (f0, f90, (ax, ay), terms, average) =
+        let (f0, f90, (ax, ay), terms, averages) =
             (given.vec3(), given.number(), vec2(given), given.vec2(), given.vec3());
         let (reflected, transmitted) = (given.vec3(), given.vec3());
         let albedo = albedo(f0, f90, terms);
-        // The average of the product of the two factors of the albedo, term by term.
-        let (both, white, fresnel) = (average.x, average.y, average.z);
-        let rest = f90 - f0;
-        let average = f0 * f0 + f0 * (1.0 - f0) * white + rest * f0 * fresnel + rest * (1.0 - f0) * both;
-        let coupling = (1.0 - albedo) / (PI * (1.0 - average).max(DVec3::splat(1e-4)));
+        let coupling = (1.0 - albedo) / (PI * (1.0 - average(f0, f90, averages)).max(DVec3::splat(1e-4)));
         let mut words = f0.to_array().to_vec();
         words.push(f90);
         words.extend((1.0 + f0 * (1.0 - terms.x) / terms.x.max(1e-3)).to_array());
