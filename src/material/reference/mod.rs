@@ -18,6 +18,7 @@ pub mod layered;
 pub mod light;
 pub mod lock;
 pub mod satin;
+pub mod sheen;
 pub mod standard;
 pub mod strand;
 pub mod sway;
