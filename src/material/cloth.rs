@@ -1,6 +1,7 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
 use super::kind::TextureSource;
+use super::layered::Layered;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
@@ -74,4 +75,6 @@ macro_rules! cloths {
 cloths! {
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
+    /// Whatever glTF's material extensions put on top of each other.
+    Layered = "layered";
 }

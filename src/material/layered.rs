@@ -129,7 +129,8 @@ impl Layered {
     }
 
     fn changes_something(&self) -> bool {
-        let reflection = (self.ior, self.specular, self.specular_color, self.specular_texture, self.specular_color_texture);
+        let reflection =
+            (self.ior, self.specular, self.specular_color, self.specular_texture, self.specular_color_texture);
         self.has_anisotropy()
             || self.has_iridescence()
             || self.has_diffuse_transmission()

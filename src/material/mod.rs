@@ -7,6 +7,7 @@ mod cloth;
 mod error;
 mod fur;
 pub mod kind;
+mod layered;
 mod look;
 mod nearest;
 pub mod parameter;
@@ -25,6 +26,7 @@ pub use cloth::{Cloth, KINDS};
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
 pub use kind::{Choice, Form, Length, TextureSource};
+pub use layered::Layered;
 pub use look::Look;
 pub use nearest::nearest;
 pub use parameter::{Family, Parameter, ParameterError};
@@ -73,7 +75,8 @@ pub fn from_asset(asset: &mut Asset, read_image: ReadImage) -> Result<Vec<Materi
     let mut keys = Vec::new();
     for (index, source) in asset.materials.iter_mut().enumerate() {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
-        materials.push(Material { name, standard: Standard::from(&*source), ..Material::default() });
+        let cloth = Layered::of(&source.extensions).map(Cloth::Layered);
+        materials.push(Material { name, standard: Standard::from(&*source), cloth, fur: None });
         if let Some(vair) = source.vair.clone() {
             keys.push((index, vair));
         }

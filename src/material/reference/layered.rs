@@ -5,7 +5,8 @@
 
 use super::albedo::Fit;
 use super::anisotropy::Lobe;
-use super::ggx;
+use super::{ggx, sheen};
+use crate::material::{Sheen, SheenTable};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -102,6 +103,67 @@ pub fn coat(roughness: f64) -> Lobe {
 /// What a layer of that strength leaves under it; `albedo` towards the eye and the light.
 pub fn under(strength: f64, albedo: DVec2) -> f64 {
     (1.0 - strength * albedo.max_element()).clamp(0.0, 1.0)
+}
+
+/// A base with all that lies on it, everything grey.
+#[derive(Debug, Clone, Copy)]
+pub struct Stack<'a> {
+    /// What lies below.
+    pub base: Base,
+    /// Of the fuzz, [0, 1].
+    pub sheen_color: f64,
+    /// Perceptual, [0, 1].
+    pub sheen_roughness: f64,
+    /// Share of the varnish, [0, 1].
+    pub clearcoat: f64,
+    /// Perceptual, [0, 1].
+    pub clearcoat_roughness: f64,
+    /// Albedos of the fuzz.
+    pub table: &'a SheenTable,
+}
+
+impl Stack<'_> {
+    fn fuzz(&self) -> sheen::Lobe<'_> {
+        sheen::Lobe { table: self.table, sheet: Sheen::Charlie, roughness: self.sheen_roughness }
+    }
+
+    /// Albedo of the whole fuzz and the whole varnish towards `w`.
+    fn albedos(&self, fit: &Fit, w: DVec3) -> (f64, f64) {
+        let mu = w.z.abs();
+        (self.fuzz().entry(mu).albedo, coat(self.clearcoat_roughness).albedo(fit, w.with_z(mu)).x)
+    }
+
+    /// What fuzz and varnish leave between two directions: of what lies under the varnish, and under both.
+    pub fn left(&self, fit: &Fit, v: DVec3, l: DVec3) -> (f64, f64) {
+        let ((fuzz_v, coat_v), (fuzz_l, coat_l)) = (self.albedos(fit, v), self.albedos(fit, l));
+        let under_coat = under(self.clearcoat, DVec2::new(coat_v, coat_l));
+        (under_coat, under_coat * under(self.sheen_color, DVec2::new(fuzz_v, fuzz_l)))
+    }
+
+    /// The fuzz times the cosine of `l`, as if nothing lay on it.
+    pub fn fuzz_times_cosine(&self, v: DVec3, l: DVec3) -> f64 {
+        self.sheen_color * self.fuzz().times_cosine(v, l)
+    }
+
+    /// The varnish times the cosine of `l`.
+    pub fn coat_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> f64 {
+        self.clearcoat * coat(self.clearcoat_roughness).times_cosine(fit, v, l).x
+    }
+
+    /// BSDF of the whole times the cosine of `l`.
+    pub fn times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> f64 {
+        let (under_coat, under_both) = self.left(fit, v, l);
+        self.coat_times_cosine(fit, v, l)
+            + under_coat * self.fuzz_times_cosine(v, l)
+            + under_both * self.base.times_cosine(fit, v, l).x
+    }
+
+    /// Radiance of the whole under constant white radiance 1: layers dim what is under them by the eye's side alone.
+    pub fn ambient(&self, fit: &Fit, v: DVec3) -> f64 {
+        let (fuzz, varnish) = self.albedos(fit, v);
+        let (fuzz, varnish) = (self.sheen_color * fuzz, self.clearcoat * varnish);
+        varnish + (1.0 - varnish) * (fuzz + (1.0 - fuzz) * self.base.ambient(fit, v).x)
+    }
 }
 
 /// Share of the light from straight behind that comes through, by luminance (Rec. 709).
