@@ -42,6 +42,13 @@ float gauze_opacity(float depth) {
     return min(depth * gauze_phi1(depth), 1.0);
 }
 
+// Classic: sin(theta)^exponent, 0 is opaque; mu in [0, 1]. Nothing is hidden from the front.
+float gauze_classic_opacity(float exponent, float mu) {
+    float sine_squared = max(1.0 - mu * mu, 0.0);
+    // Some devices say 0 to the power of 0 is 0.
+    return exponent > 0.0 ? pow(sine_squared, 0.5 * exponent) : 1.0;
+}
+
 // Share of scattered light that goes through the sheet.
 float gauze_through(float depth_v, float depth_l) {
     float through = exp(-min(depth_v, depth_l)) * gauze_phi1(abs(depth_v - depth_l));

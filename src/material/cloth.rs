@@ -1,11 +1,13 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::gauze::Gauze;
 use super::kind::TextureSource;
 use super::layered::Layered;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
 use super::{Fur, Standard};
+use crate::asset::TextureRef;
 
 /// Declares the families: `Variant = "kind"`, with the parameters of the struct of that name.
 macro_rules! cloths {
@@ -58,6 +60,13 @@ macro_rules! cloths {
                 }
             }
 
+            /// [`Family::textures`] of the family that it is.
+            pub fn textures(&self) -> Vec<(&'static str, TextureRef)> {
+                match self {
+                    $(Self::$family(family) => family.textures(),)*
+                }
+            }
+
             /// [`Family::clamp`] of the family that it is.
             pub fn clamp(&mut self) {
                 match self {
@@ -73,6 +82,8 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Organza, chiffon, tulle: sheer face on, dense at its edges.
+    Gauze = "gauze";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
     /// Whatever glTF's material extensions put on top of each other.

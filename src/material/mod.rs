@@ -6,6 +6,7 @@
 mod cloth;
 mod error;
 mod fur;
+mod gauze;
 pub mod kind;
 mod layered;
 mod look;
@@ -25,6 +26,7 @@ mod value;
 pub use cloth::{Cloth, KINDS};
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
+pub use gauze::{Gauze, Weave};
 pub use kind::{Choice, Form, Length, TextureSource};
 pub use layered::Layered;
 pub use look::Look;

@@ -24,9 +24,9 @@ pub struct Golden {
 const SIZE: [u32; 2] = [256, 160];
 
 /// The same driver gives the same bytes; a step of rounding is left for another processor's vector width.
-const SAME: Limits = Limits { max_difference: 1, outlier_share: 0.0, flip_mean: 1e-3, flip_p99: 0.01 };
+pub const SAME: Limits = Limits { max_difference: 1, outlier_share: 0.0, flip_mean: 1e-3, flip_p99: 0.01 };
 const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mean: 0.01, flip_p99: 0.1 };
-const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
+pub const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
 pub const GOLDENS: [Golden; 4] = [

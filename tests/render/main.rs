@@ -29,6 +29,7 @@ mod lean;
 mod light;
 mod plans;
 mod planted;
+mod presets;
 mod scenes;
 mod shells;
 mod submission;

@@ -21,7 +21,7 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
         uniforms: bytemuck::bytes_of(&uniforms(layered)).to_vec(),
         maps: maps(layered),
         constants: switches.map(|(name, on)| (name, on.into())).to_vec(),
-        tables: vec![&super::SHEEN_TABLE],
+        tables: vec![&super::sheen::TABLE],
         blends: layered.has_transmission(),
     }
 }

@@ -1,13 +1,14 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod gauze;
 mod layered;
 mod satin;
+mod sheen;
 
 use super::map::Map;
 use super::table::Table;
-use crate::material::{Cloth, SheenTable, Standard};
-use half::f16;
+use crate::material::{Cloth, Standard};
 
 /// What a family adds to the draw of the standard surface.
 #[derive(Debug, Clone)]
@@ -31,16 +32,8 @@ pub struct ClothShader {
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
+        Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
         Cloth::Layered(layered) => layered::shader(layered, standard),
     }
-}
-
-/// What the lobes of fuzz reflect.
-static SHEEN_TABLE: Table = Table { name: "sheen", size: SheenTable::SIZE, texels: sheen_texels };
-
-fn sheen_texels() -> Vec<[f32; 4]> {
-    let numbers: Vec<f32> =
-        SheenTable::BYTES.chunks_exact(2).map(|bytes| f16::from_le_bytes([bytes[0], bytes[1]]).to_f32()).collect();
-    numbers.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect()
 }

@@ -81,7 +81,7 @@ impl fmt::Display for Property {
 }
 
 /// Four places without idle zeros, or a power of ten where that would say nothing.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         return format!("{value:.1e}");
     }

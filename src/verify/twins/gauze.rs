@@ -3,6 +3,7 @@
 use super::super::domain::{COSINE, Domain, UNIT};
 use super::super::twin::{Given, Twin};
 use super::ULP;
+use crate::material::reference::classic::gauze as classic;
 use crate::material::reference::gauze::{LARGEST_DEPTH, Weave, met_by_both, opacity, phi1, through};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -49,6 +50,14 @@ pub(super) const TWINS: &[Twin] = &[
     // 1 - cover s is as good as the product, and its logarithm relative to it.
     .rule(super::super::twin::Rule::Conditioned(2)),
     Twin::new("gauze_opacity", &[DEPTH], |given| vec![opacity(given.number())]).limit(2e-6, 0.0),
+    Twin::new("gauze_classic_opacity", &[Domain::Uniform(0.0, 2000.0, &[0.0, 1.0, 200.0, 2000.0]), COSINE], |given| {
+        vec![classic::opacity(given.number(), given.number())]
+    })
+    // Vulkan has the logarithm within 2^-21 where it is near 0; the power multiplies it by its exponent.
+    .allowance(|given| {
+        let (exponent, mu) = (given.number(), given.number());
+        vec![classic::opacity(exponent, mu) * 0.5 * exponent * 2f64.powi(-21)]
+    }),
     Twin::new("gauze_through", &[DEPTH, DEPTH], |given| vec![through(given.number(), given.number())]),
     Twin::new("gauze_met_by_both", &[UNIT, UNIT], |given| vec![met_by_both(given.number(), given.number())]),
     Twin::new("gauze_surface", &[UNIT, DEPTH, MEAN_OPACITY, UNIT, UNIT], |given| {
