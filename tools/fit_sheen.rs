@@ -1,4 +1,4 @@
-//! Makes `src/material/sheen_table.f16`: `cargo run --release --example fit_sheen`, a few minutes.
+//! Makes `src/material/sheen.f16`: `cargo run --release --example fit_sheen`, a few minutes.
 //!
 //! [`Sheen::Volume`]: light walks at random through a slab of fibre-like SGGX microflakes that stand on the cloth (Heitz
 //! et al. 2015, "The SGGX Microflake Distribution"; Zeltner et al. 2022, section 3). The slab is one unit thick and holds
@@ -42,7 +42,7 @@ fn main() -> std::io::Result<()> {
         let near = grazing.chain(rougher).find(|near| near.a > 0.0).unwrap_or_default();
         SheenEntry { albedo: entry.albedo, ..near }
     });
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/material/sheen_table.f16");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/material/sheen.f16");
     std::fs::write(path, table.to_bytes())
 }
 

@@ -4,6 +4,7 @@
 //! presets all end in [`Family::set`]. Nothing here knows the GPU.
 
 mod cloth;
+mod cotton;
 mod error;
 mod fur;
 mod gauze;
@@ -17,13 +18,15 @@ pub mod procedural;
 pub mod reference;
 mod satin;
 mod schema;
-mod sheen_table;
+mod sheen;
 mod skin;
 mod standard;
 mod texture;
 mod value;
+mod velvet;
 
 pub use cloth::{Cloth, KINDS};
+pub use cotton::Cotton;
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
 pub use gauze::{Gauze, Weave};
@@ -35,10 +38,11 @@ pub use parameter::{Family, Parameter, ParameterError};
 pub use preset::{Preset, presets};
 pub use satin::Satin;
 pub use schema::look_schema;
-pub use sheen_table::{Sheen, SheenEntry, SheenTable};
+pub use sheen::{Sheen, SheenEntry, SheenModel, SheenTable};
 pub use standard::{AlphaMode, Standard};
 pub use texture::{ImageName, ReadImage};
 pub use value::Value;
+pub use velvet::Velvet;
 
 use crate::asset::Asset;
 use texture::Appended;

@@ -12,6 +12,7 @@ pub mod coverage;
 pub mod direction;
 pub mod film;
 pub mod gauze;
+pub mod fuzz;
 pub mod ggx;
 pub mod hash;
 pub mod layered;

@@ -6,8 +6,8 @@
 //! Next-Gen Material Pipeline for The Order: 1886" (velvet, and the visibility of cloth).
 
 use super::ggx;
-use crate::material::sheen_table::{Sheen, SheenEntry, SheenTable};
-use glam::DVec3;
+use crate::material::{Sheen, SheenEntry, SheenTable};
+use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// Smallest width of Charlie: narrower, its shadowing no longer keeps the albedo below 1.
@@ -53,14 +53,18 @@ pub fn cloth_visibility(mu_v: f64, mu_l: f64) -> f64 {
     1.0 / (4.0 * (mu_l + mu_v - mu_l * mu_v))
 }
 
+/// Unit projection of the view; any direction for a view along the normal.
+pub fn view_axis(v: DVec3) -> DVec2 {
+    if v.truncate().length() > 1e-7 { v.truncate().normalize() } else { DVec2::X }
+}
+
 /// The transformed cosine times the cosine of `l`; its integral over the hemisphere is 1. 0 where the transform is none.
-pub fn ltc_times_cosine(v: DVec3, l: DVec3, a: f64, b: f64) -> f64 {
+pub fn ltc_times_cosine(a: f64, b: f64, view_axis: DVec2, l: DVec3) -> f64 {
     if a < 1e-5 || l.z <= 0.0 {
         return 0.0;
     }
-    let along = DVec3::new(v.x, v.y, 0.0).try_normalize().unwrap_or(DVec3::X);
-    let across = DVec3::Z.cross(along);
-    let w = DVec3::new(a * l.dot(along) + b * l.z, a * l.dot(across), l.z);
+    let (along, across) = (view_axis.dot(l.truncate()), view_axis.perp_dot(l.truncate()));
+    let w = DVec3::new(a * along + b * l.z, a * across, l.z);
     // The cosine lobe of the transformed direction, times the Jacobian det / |w|^3.
     w.normalize().z / PI * a * a / w.length().powi(3)
 }
@@ -83,7 +87,7 @@ pub fn lobe_times_cosine(sheet: Sheen, entry: SheenEntry, roughness: f64, v: DVe
     let alpha = alpha_of_roughness(sheet, roughness);
     let h = ggx::half_vector(v, l);
     match sheet {
-        Sheen::Volume => entry.albedo * ltc_times_cosine(v, l, entry.a, entry.b),
+        Sheen::Volume => entry.albedo * ltc_times_cosine(entry.a, entry.b, view_axis(v), l),
         Sheen::Charlie => {
             let shadowing = 1.0 / (1.0 + charlie_lambda(v.z, alpha) + charlie_lambda(l.z, alpha));
             charlie_ndf(h, alpha) * shadowing / (4.0 * v.z.max(SMALLEST_COSINE))

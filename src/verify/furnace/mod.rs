@@ -8,8 +8,10 @@ mod claim;
 mod classic;
 mod fur;
 mod layered;
+mod fuzz;
 mod light;
 mod quadrature;
+mod sheen;
 mod standard;
 
 pub use claim::{Claim, Input, Measure};
@@ -95,6 +97,10 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 /// Everything that is claimed, ours first.
 pub fn claims() -> Vec<Claim> {
     [standard::claims(), layered::claims(), fur::claims(), classic::claims()].into_iter().flatten().collect()
+    [standard::claims(), fur::claims(), sheen::claims(), fuzz::claims(), classic::claims()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

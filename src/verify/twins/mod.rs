@@ -3,45 +3,54 @@
 mod albedo;
 mod anisotropy;
 mod color;
+mod cotton;
 mod coverage;
 mod direction;
 mod film;
 mod gauze;
+mod fuzz;
 mod ggx;
 mod hash;
 mod layered;
 mod light;
 mod lock;
 mod satin;
+mod sheen;
 mod standard;
 mod strand;
 mod sway;
 mod tonemap;
 mod uv;
+mod velvet;
 
 use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
     let files: [&'static [Twin]; 18] = [
+    let files: [&'static [Twin]; 17] = [
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
+        cotton::TWINS,
         coverage::TWINS,
         direction::TWINS,
         film::TWINS,
         gauze::TWINS,
+        fuzz::TWINS,
         ggx::TWINS,
         hash::TWINS,
         layered::TWINS,
         light::TWINS,
         lock::TWINS,
         satin::TWINS,
+        sheen::TWINS,
         standard::TWINS,
         strand::TWINS,
         sway::TWINS,
         tonemap::TWINS,
         uv::TWINS,
+        velvet::TWINS,
     ];
     files.into_iter().flatten()
 }

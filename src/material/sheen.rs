@@ -1,9 +1,29 @@
-//! What the lobes of fuzz reflect, tabulated: the one thing about sheen that no formula gives.
+//! Models of fuzz, and what their lobes reflect, tabulated: the one thing about sheen that no formula gives.
 //!
-//! `tools/fit_sheen.rs` makes the table, [`SheenTable::shipped`] reads it, and a renderer uploads [`SheenTable::BYTES`]
+//! `tools/fit_sheen.rs` makes the table, [`SheenTable::shipped`] reads it, and a renderer uploads [`SheenTable::texels`]
 //! as the texture that `sheen_table_uv` of `sheen.glsl` looks into.
 
 use half::f16;
+
+crate::choices! {
+    /// How the fuzz of a cloth scatters light.
+    pub enum SheenModel {
+        Ltc = "ltc", "Light wanders between the fibres: soft, bright towards the outline, the closest to real fuzz.";
+        Charlie = "charlie", "Fibres without order that scatter once: a finer rim, as other engines show it.";
+        Inverted = "inverted", "Fibres that stand upright: a hard rim over an even veil.";
+    }
+}
+
+impl SheenModel {
+    /// Where the table has it.
+    pub fn sheet(self) -> Sheen {
+        match self {
+            Self::Ltc => Sheen::Volume,
+            Self::Charlie => Sheen::Charlie,
+            Self::Inverted => Sheen::Inverted,
+        }
+    }
+}
 
 /// A sheet of the table: one model of fuzz. The numbers are those of `SHEEN_*` in `sheen.glsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -50,7 +70,7 @@ impl SheenTable {
     /// Width and height of the texture.
     pub const SIZE: [u32; 2] = [Self::NODES as u32, (Self::NODES * Sheen::ALL.len()) as u32];
     /// Texels of that texture in rows, each four little-endian half floats: albedo, a, b, average.
-    pub const BYTES: &[u8] = include_bytes!("sheen_table.f16");
+    const BYTES: &[u8] = include_bytes!("sheen.f16");
 
     /// The cosine or roughness of a node; cosines are the square of their place.
     pub fn place(node: usize) -> f64 {
@@ -89,10 +109,14 @@ impl SheenTable {
         Self { entries: Self::BYTES.chunks_exact(8).map(entry).collect() }
     }
 
-    /// The text of [`SheenTable::BYTES`] that holds this table.
+    /// Rows of the texture, from the first: albedo, a, b, average.
+    pub fn texels(&self) -> impl Iterator<Item = [f32; 4]> {
+        self.entries.iter().map(|entry| [entry.albedo, entry.a, entry.b, entry.average].map(|value| value as f32))
+    }
+
+    /// The file that [`SheenTable::shipped`] reads: texels of four little-endian half floats.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let values = |entry: &SheenEntry| [entry.albedo, entry.a, entry.b, entry.average];
-        self.entries.iter().flat_map(values).flat_map(|value| f16::from_f64(value).to_le_bytes()).collect()
+        self.texels().flatten().flat_map(|value| f16::from_f32(value).to_le_bytes()).collect()
     }
 
     /// The entry between nodes, as the texture unit interpolates it: cosine and perceptual roughness in [0, 1].
