@@ -7,8 +7,8 @@
 mod claim;
 mod classic;
 mod fur;
-mod layered;
 mod fuzz;
+mod layered;
 mod light;
 mod quadrature;
 mod sheen;
@@ -96,11 +96,9 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 
 /// Everything that is claimed, ours first.
 pub fn claims() -> Vec<Claim> {
-    [standard::claims(), layered::claims(), fur::claims(), classic::claims()].into_iter().flatten().collect()
-    [standard::claims(), fur::claims(), sheen::claims(), fuzz::claims(), classic::claims()]
-        .into_iter()
-        .flatten()
-        .collect()
+    let families: [fn() -> Vec<Claim>; 6] =
+        [standard::claims, layered::claims, fur::claims, sheen::claims, fuzz::claims, classic::claims];
+    families.into_iter().flat_map(|claims| claims()).collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

@@ -7,8 +7,8 @@ mod cotton;
 mod coverage;
 mod direction;
 mod film;
-mod gauze;
 mod fuzz;
+mod gauze;
 mod ggx;
 mod hash;
 mod layered;
@@ -25,34 +25,35 @@ mod velvet;
 
 use super::twin::Twin;
 
+/// Every file's.
+const FILES: &[&[Twin]] = &[
+    albedo::TWINS,
+    anisotropy::TWINS,
+    color::TWINS,
+    cotton::TWINS,
+    coverage::TWINS,
+    direction::TWINS,
+    film::TWINS,
+    fuzz::TWINS,
+    gauze::TWINS,
+    ggx::TWINS,
+    hash::TWINS,
+    layered::TWINS,
+    light::TWINS,
+    lock::TWINS,
+    satin::TWINS,
+    sheen::TWINS,
+    standard::TWINS,
+    strand::TWINS,
+    sway::TWINS,
+    tonemap::TWINS,
+    uv::TWINS,
+    velvet::TWINS,
+];
+
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 18] = [
-    let files: [&'static [Twin]; 17] = [
-        albedo::TWINS,
-        anisotropy::TWINS,
-        color::TWINS,
-        cotton::TWINS,
-        coverage::TWINS,
-        direction::TWINS,
-        film::TWINS,
-        gauze::TWINS,
-        fuzz::TWINS,
-        ggx::TWINS,
-        hash::TWINS,
-        layered::TWINS,
-        light::TWINS,
-        lock::TWINS,
-        satin::TWINS,
-        sheen::TWINS,
-        standard::TWINS,
-        strand::TWINS,
-        sway::TWINS,
-        tonemap::TWINS,
-        uv::TWINS,
-        velvet::TWINS,
-    ];
-    files.into_iter().flatten()
+    FILES.iter().copied().flatten()
 }
 
 /// One unit in the last place, relative.
