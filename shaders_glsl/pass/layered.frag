@@ -238,11 +238,13 @@ void main() {
     float through = TRANSMISSION ? layered_through(m.transmission, f.metallic, f.base_color, base.albedo) : 0.0;
 
     SheenLobe sheen;
+    float sheen_albedo = 0.0;
     float sheen_strength = 0.0;
     if (SHEEN) {
         sheen = sheen_lobe(SHEEN_CHARLIE, m.sheen_roughness, eye, sheen_texel(eye.z, m.sheen_roughness));
         sheen_strength = largest(m.sheen_color);
-        float left = layered_under(sheen_strength, sheen.albedo, 0.0);
+        sheen_albedo = layered_sheen_albedo(sheen.albedo);
+        float left = layered_under(sheen_strength, sheen_albedo, 0.0);
         ambient = ambient * left + m.sheen_color * sheen.albedo;
         through *= left;
     }
@@ -268,8 +270,8 @@ void main() {
         vec3 l = light.direction_in_world * world_from_base;
         vec3 seen = layered_base_times_cosine(base, eye, l, base_terms(l, f.roughness, m.widths));
         if (SHEEN) {
-            float albedo = sheen_texel(abs(l.z), m.sheen_roughness).x;
-            seen *= layered_under(sheen_strength, sheen.albedo, albedo);
+            float albedo = layered_sheen_albedo(sheen_texel(abs(l.z), m.sheen_roughness).x);
+            seen *= layered_under(sheen_strength, sheen_albedo, albedo);
             seen += m.sheen_color * sheen_brdf_times_cosine(SHEEN_CHARLIE, sheen, eye, l);
         }
         if (CLEARCOAT) {

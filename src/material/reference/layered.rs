@@ -100,6 +100,14 @@ pub fn coat(roughness: f64) -> Lobe {
     Lobe { f0: DVec3::splat(COAT_F0), f90: 1.0, alpha: (alpha, alpha) }
 }
 
+/// By how much a lobe of fuzz may exceed the straight lines between the nodes of its table.
+pub const SHEEN_TABLE_MARGIN: f64 = 1.018;
+
+/// Albedo of fuzz that dims what is under it, from that of its table.
+pub fn sheen_albedo(table_albedo: f64) -> f64 {
+    (SHEEN_TABLE_MARGIN * table_albedo).min(1.0)
+}
+
 /// What a layer of that strength leaves under it; `albedo` towards the eye and the light.
 pub fn under(strength: f64, albedo: DVec2) -> f64 {
     (1.0 - strength * albedo.max_element()).clamp(0.0, 1.0)
@@ -127,10 +135,10 @@ impl Stack<'_> {
         sheen::Lobe { table: self.table, sheet: Sheen::Charlie, roughness: self.sheen_roughness }
     }
 
-    /// Albedo of the whole fuzz and the whole varnish towards `w`.
+    /// What the whole fuzz and the whole varnish take towards `w`.
     fn albedos(&self, fit: &Fit, w: DVec3) -> (f64, f64) {
         let mu = w.z.abs();
-        (self.fuzz().entry(mu).albedo, coat(self.clearcoat_roughness).albedo(fit, w.with_z(mu)).x)
+        (sheen_albedo(self.fuzz().entry(mu).albedo), coat(self.clearcoat_roughness).albedo(fit, w.with_z(mu)).x)
     }
 
     /// What fuzz and varnish leave between two directions: of what lies under the varnish, and under both.
@@ -161,8 +169,9 @@ impl Stack<'_> {
     /// Radiance of the whole under constant white radiance 1: layers dim what is under them by the eye's side alone.
     pub fn ambient(&self, fit: &Fit, v: DVec3) -> f64 {
         let (fuzz, varnish) = self.albedos(fit, v);
-        let (fuzz, varnish) = (self.sheen_color * fuzz, self.clearcoat * varnish);
-        varnish + (1.0 - varnish) * (fuzz + (1.0 - fuzz) * self.base.ambient(fit, v).x)
+        let (left, varnish) = (under(self.sheen_color, DVec2::splat(fuzz)), self.clearcoat * varnish);
+        let fuzz = self.sheen_color * self.fuzz().entry(v.z).albedo;
+        varnish + (1.0 - varnish) * (fuzz + left * self.base.ambient(fit, v).x)
     }
 }
 

@@ -114,6 +114,7 @@ pub(super) const TWINS: &[Twin] = &[
         let (lobe, v, l) = (layered::coat(given.number()), given.vec3(), given.vec3());
         vec![lobe.single_scattering_times_cosine(v, l).x]
     }),
+    Twin::new("layered_sheen_albedo", &[UNIT], |given| vec![layered::sheen_albedo(given.number())]),
     Twin::new("layered_under", &[UNIT, UNIT, UNIT], |given| vec![layered::under(given.number(), given.vec2())]),
     Twin::new("layered_through", &[UNIT, UNIT, UNIT, UNIT], |given| {
         vec![layered::through(given.number(), given.number(), given.vec3(), given.vec3())]
