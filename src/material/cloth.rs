@@ -1,8 +1,10 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
 use super::gauze::Gauze;
+use super::glint::Glint;
 use super::kind::TextureSource;
 use super::layered::Layered;
+use super::laser::Laser;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
@@ -84,6 +86,10 @@ macro_rules! cloths {
 cloths! {
     /// Organza, chiffon, tulle: sheer face on, dense at its edges.
     Gauze = "gauze";
+    /// Iridescent film on cloth or metal.
+    Laser = "laser";
+    /// Sequins, lurex, glitter yarn: flakes that flash one by one.
+    Glint = "glint";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
     /// Whatever glTF's material extensions put on top of each other.

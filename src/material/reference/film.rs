@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Bands that the shader adds up.
 pub const BANDS: usize = 4;
 /// Smallest cosine that is evaluated.
-pub const SMALLEST_COSINE: f64 = 1e-6;
+pub const SMALLEST_COSINE: f64 = 1e-4;
 
 /// Colour matching functions of the CIE 1931 observer at a wavelength in nanometres (Wyman, Sloan & Shirley 2013, "Simple
 /// Analytic Approximations to the CIE XYZ Color Matching Functions", the multi-lobe fit).

@@ -3,6 +3,8 @@
 
 mod gauze;
 mod layered;
+mod glint;
+mod laser;
 mod satin;
 mod sheen;
 
@@ -29,10 +31,19 @@ pub struct ClothShader {
     pub blends: bool,
 }
 
+impl ClothShader {
+    /// Whether it asks the vertices where they are in the rest pose.
+    pub fn reads_rest(&self) -> bool {
+        self.file == "glint.frag"
+    }
+}
+
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
         Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
+        Cloth::Laser(laser) => laser::shader(laser, standard),
+        Cloth::Glint(glint) => glint::shader(glint, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
         Cloth::Layered(layered) => layered::shader(layered, standard),
     }

@@ -10,8 +10,11 @@ mod film;
 mod fuzz;
 mod gauze;
 mod ggx;
+mod glint;
 mod hash;
 mod layered;
+mod hsv;
+mod laser;
 mod light;
 mod lock;
 mod satin;
@@ -53,6 +56,28 @@ const FILES: &[&[Twin]] = &[
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
+    const FILES: &[&[Twin]] = &[
+        albedo::TWINS,
+        anisotropy::TWINS,
+        color::TWINS,
+        coverage::TWINS,
+        direction::TWINS,
+        gauze::TWINS,
+        film::TWINS,
+        ggx::TWINS,
+        glint::TWINS,
+        hash::TWINS,
+        hsv::TWINS,
+        laser::TWINS,
+        light::TWINS,
+        lock::TWINS,
+        satin::TWINS,
+        standard::TWINS,
+        strand::TWINS,
+        sway::TWINS,
+        tonemap::TWINS,
+        uv::TWINS,
+    ];
     FILES.iter().copied().flatten()
 }
 
