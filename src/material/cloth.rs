@@ -4,6 +4,7 @@ use super::gauze::Gauze;
 use super::glint::Glint;
 use super::cotton::Cotton;
 use super::kind::TextureSource;
+use super::layered::Layered;
 use super::laser::Laser;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
@@ -97,4 +98,6 @@ cloths! {
     Satin = "satin";
     /// Velvet, corduroy: a dense pile, dark from the front and bright at its folds.
     Velvet = "velvet";
+    /// Whatever glTF's material extensions put on top of each other.
+    Layered = "layered";
 }

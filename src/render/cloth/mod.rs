@@ -2,6 +2,7 @@
 //! decided when the pipeline is made.
 
 mod gauze;
+mod layered;
 mod glint;
 mod laser;
 mod cotton;
@@ -48,5 +49,6 @@ pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
         Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
         Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
+        Cloth::Layered(layered) => layered::shader(layered, standard),
     }
 }

@@ -7,6 +7,8 @@
 mod claim;
 mod classic;
 mod fur;
+mod fuzz;
+mod layered;
 mod laser;
 mod fuzz;
 mod light;
@@ -101,6 +103,10 @@ pub fn claims() -> Vec<Claim> {
         .into_iter()
         .flatten()
         .collect()
+    let families: [fn() -> Vec<Claim>; 6] =
+        [standard::claims, layered::claims, fur::claims, sheen::claims, fuzz::claims, classic::claims];
+    families.into_iter().flat_map(|claims| claims()).collect()
+    [standard::claims(), fur::claims(), laser::claims(), classic::claims()].into_iter().flatten().collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

@@ -7,11 +7,13 @@ mod cotton;
 mod coverage;
 mod direction;
 mod film;
+mod fuzz;
 mod gauze;
 mod fuzz;
 mod ggx;
 mod glint;
 mod hash;
+mod layered;
 mod hsv;
 mod laser;
 mod light;
@@ -27,6 +29,32 @@ mod velvet;
 
 use super::twin::Twin;
 
+/// Every file's.
+const FILES: &[&[Twin]] = &[
+    albedo::TWINS,
+    anisotropy::TWINS,
+    color::TWINS,
+    cotton::TWINS,
+    coverage::TWINS,
+    direction::TWINS,
+    film::TWINS,
+    fuzz::TWINS,
+    gauze::TWINS,
+    ggx::TWINS,
+    hash::TWINS,
+    layered::TWINS,
+    light::TWINS,
+    lock::TWINS,
+    satin::TWINS,
+    sheen::TWINS,
+    standard::TWINS,
+    strand::TWINS,
+    sway::TWINS,
+    tonemap::TWINS,
+    uv::TWINS,
+    velvet::TWINS,
+];
+
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
     const FILES: &[&[Twin]] = &[
@@ -34,7 +62,6 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
-        cotton::TWINS,
         coverage::TWINS,
         direction::TWINS,
         gauze::TWINS,
@@ -54,7 +81,6 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         sway::TWINS,
         tonemap::TWINS,
         uv::TWINS,
-        velvet::TWINS,
     ];
     FILES.iter().copied().flatten()
 }
