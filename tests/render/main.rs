@@ -25,6 +25,7 @@ mod display;
 mod edges;
 mod everything;
 mod goldens;
+mod laser;
 mod lean;
 mod light;
 mod plans;
