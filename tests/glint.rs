@@ -66,7 +66,9 @@ fn normals_fill_the_square_evenly() {
             if (at.x.abs() - at.y.abs()).abs() < 2.0 * step || at.x.abs().min(at.y.abs()) < 2.0 * step {
                 continue;
             }
-            let along = |axis: DVec2| (glint::normal(at + step * axis, alpha) - glint::normal(at - step * axis, alpha)) / (2.0 * step);
+            let along = |axis: DVec2| {
+                (glint::normal(at + step * axis, alpha) - glint::normal(at - step * axis, alpha)) / (2.0 * step)
+            };
             let solid_angle = along(DVec2::X).cross(along(DVec2::Y)).length();
             let share = ggx::ndf(normal, alpha, alpha) * normal.z * solid_angle;
             assert!((share * 4.0 - 1.0).abs() < 1e-5, "alpha {alpha} at {at}: {share} for 1/4");
@@ -97,12 +99,14 @@ fn listed(flakes: &Flakes, footprint: &glint::Footprint, chart: u32, square: DVe
         for number in 0..(side * side) as u32 {
             let normal = IVec2::new(number as i32 % side, number as i32 / side).as_dvec2();
             let place = glint::shuffle(number, flakes.fineness, seed[1]) as i32;
-            let (tint, weight) = glint::flake(flakes, footprint, tile * side + IVec2::new(place % side, place / side), 0, chart * 16);
+            let (tint, weight) =
+                glint::flake(flakes, footprint, tile * side + IVec2::new(place % side, place / side), 0, chart * 16);
             // Its normal, in cells of the square, and the way from there to the half vector around the square's rim.
             let wide = f64::from(side);
             let way = (0.5 * square + glint::shift(seed)) * wide - (normal + 0.5);
             let way = way - wide * (way / wide).round();
-            sum += tint * weight * f64::from(side * side) * glint::lobe_profile(way.length_squared() / (lobe * lobe)) / (PI * lobe * lobe);
+            sum += tint * weight * f64::from(side * side) * glint::lobe_profile(way.length_squared() / (lobe * lobe))
+                / (PI * lobe * lobe);
         }
     }
     sum

@@ -30,7 +30,9 @@ pub fn square(normal: DVec3, alpha: f64) -> DVec2 {
     }
     let disc = (stretched / stretched.length()).truncate();
     // In the quarter around the x axis, x is the radius, and y the angle's share of that quarter.
-    let quarter = |along: f64, aside: f64| disc.length() * DVec2::new(1f64.copysign(along), (aside / along.abs()).atan() / (0.25 * PI));
+    let quarter = |along: f64, aside: f64| {
+        disc.length() * DVec2::new(1f64.copysign(along), (aside / along.abs()).atan() / (0.25 * PI))
+    };
     if disc.x.abs() >= disc.y.abs() { quarter(disc.x, disc.y) } else { quarter(disc.y, disc.x).yx() }
 }
 
@@ -40,7 +42,11 @@ pub fn normal(square: DVec2, alpha: f64) -> DVec3 {
         let (sine, cosine) = if along == 0.0 { (0.0, 1.0) } else { (0.25 * PI * aside / along).sin_cos() };
         along * DVec2::new(cosine, sine)
     };
-    let disc = if square.x.abs() >= square.y.abs() { of_quarter(square.x, square.y) } else { of_quarter(square.y, square.x).yx() };
+    let disc = if square.x.abs() >= square.y.abs() {
+        of_quarter(square.x, square.y)
+    } else {
+        of_quarter(square.y, square.x).yx()
+    };
     DVec3::new(alpha * disc.x, alpha * disc.y, (1.0f64 - disc.length_squared()).max(0.0).sqrt()).normalize()
 }
 
@@ -55,7 +61,13 @@ pub fn shuffle(number: u32, fineness: u32, key: u32) -> u32 {
 /// Axes of the plane that the lattice lies in, by the surface's normal in the rest pose.
 pub fn chart(normal: DVec3) -> u32 {
     let size = normal.abs();
-    if size.x > size.y.max(size.z) { 0 } else if size.y > size.z { 1 } else { 2 }
+    if size.x > size.y.max(size.z) {
+        0
+    } else if size.y > size.z {
+        1
+    } else {
+        2
+    }
 }
 
 /// A vector in that plane.
@@ -260,13 +272,7 @@ pub fn level(flakes: &Flakes, footprint: &Footprint, tiles: &Tiles, square: DVec
 }
 
 /// The factor on the smooth lobe in a pixel, of two levels and their shares; `spread` as in [`lobe`].
-pub fn flash(
-    flakes: &Flakes,
-    footprint: &Footprint,
-    levels: &[(f64, Tiles)],
-    square: DVec2,
-    spread: f64,
-) -> DVec3 {
+pub fn flash(flakes: &Flakes, footprint: &Footprint, levels: &[(f64, Tiles)], square: DVec2, spread: f64) -> DVec3 {
     let wide = lobe(flakes, spread);
     let seen = wide.min(0.5);
     let mean = DVec3::splat(mean_tint(flakes));

@@ -2,8 +2,8 @@
 //! decided when the pipeline is made.
 
 mod gauze;
-mod laser;
 mod glint;
+mod laser;
 mod satin;
 
 use super::map::Map;

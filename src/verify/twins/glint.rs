@@ -139,9 +139,7 @@ pub(super) const TWINS: &[Twin] = &[
             words2(glint::in_chart(vector, chart))
         })
     },
-    Twin::new("glint_length_squared", &[VECTOR], |given| {
-        vec![(glint::edges() * given.vec2()).length_squared()]
-    }),
+    Twin::new("glint_length_squared", &[VECTOR], |given| vec![(glint::edges() * given.vec2()).length_squared()]),
     Twin::new("glint_cross", &[VECTOR, VECTOR], |given| vec![given.vec2().perp_dot(given.vec2())]),
     Twin::new(
         "glint_footprint",

@@ -5,8 +5,8 @@ mod anisotropy;
 mod color;
 mod coverage;
 mod direction;
-mod gauze;
 mod film;
+mod gauze;
 mod ggx;
 mod glint;
 mod hash;
@@ -25,8 +25,7 @@ use super::twin::Twin;
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    let files: [&'static [Twin]; 16] = [
-    let files: [&'static [Twin]; 14] = [
+    const FILES: &[&[Twin]] = &[
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
@@ -48,7 +47,7 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         tonemap::TWINS,
         uv::TWINS,
     ];
-    files.into_iter().flatten()
+    FILES.iter().copied().flatten()
 }
 
 /// One unit in the last place, relative.
