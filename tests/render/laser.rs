@@ -1,7 +1,7 @@
 //! Laser cloth shows the colours of its twin, fetches no map of a part that is off, and does not sparkle from afar.
 
 use crate::headless::{Headless, headless};
-use crate::limit::{all_hold, close};
+use crate::limit::{ABSOLUTE, RELATIVE, all_hold, within};
 use crate::scenes::three_lights;
 use crate::stage::{Stage, at, options, plain, quad};
 use crate::surface::{AMBIENT, lit};
@@ -17,6 +17,8 @@ use vair::scene::Scene;
 
 /// Texel of every map: a red hue, other offsets in R and G.
 const TEXEL: [u8; 4] = [128, 64, 200, 255];
+/// Relative error of a decoded texel of 64 or more: half a step of 8 bits (drivers decode by approximation).
+const DECODED: f64 = 2.4 * 0.5 / 64.0;
 const BASE: Vec4 = Vec4::new(0.8, 0.5, 0.3, 1.0);
 const IRRADIANCE: Vec3 = Vec3::new(0.3, 0.2, 0.25);
 
@@ -102,7 +104,9 @@ fn check_row(device: &mut Headless, metallic: f32, roughness: f32, view_deg: f32
         let (v, l) = (in_tangent(Vec3::Z), in_tangent(to_light));
         let expected = lit(lobes(cloth, metallic.into(), roughness.into(), v), AMBIENT, v, l, IRRADIANCE.as_dvec3());
         let what = format!("metallic {metallic} roughness {roughness} at {view_deg} degrees: {cloth:?}");
-        close(&what, picture.radiance(16 * column as u32 + 8, 8), expected)
+        let found = picture.radiance(16 * column as u32 + 8, 8);
+        let decodes = cloth.color_mode == ColorMode::Ramp;
+        within(&what, found, expected, if decodes { RELATIVE + DECODED } else { RELATIVE }, ABSOLUTE)
     };
     cloths.iter().enumerate().map(check).collect()
 }
@@ -175,9 +179,10 @@ fn sparkle(device: &mut Headless, radius_px: f32, classic: bool) -> f64 {
 #[test]
 fn a_far_ball_does_not_sparkle() {
     headless(|device| {
-        for radius_px in [3.0, 6.0, 12.0] {
+        // The smaller the ball, the more hues fall in a pixel of it.
+        for (radius_px, left) in [(3.0, 0.25), (6.0, 0.4), (12.0, 0.5)] {
             let (faded, classic) = (sparkle(device, radius_px, false), sparkle(device, radius_px, true));
-            println!("radius {radius_px} px: {faded:.4} faded, {classic:.4} classic");
+            assert!(faded <= left * classic, "radius {radius_px} px: {faded:.4} faded, {classic:.4} classic");
         }
     });
 }
@@ -190,7 +195,7 @@ pub fn laser_balls() -> Scene {
     let ramp: Vec<[u8; 4]> = (0..16u8).map(|at| [40 + 12 * at, 220 - 10 * at, 120 + 8 * at, 255]).collect();
     let ramp = Some(stage.texture([16, 1], &ramp, crate::stage::NEAREST));
     let checks: Vec<[u8; 4]> =
-        (0..64u8).map(|at| if (at + at / 8) % 2 == 0 { [0, 80, 0, 255] } else { [90, 0, 0, 255] }).collect();
+        (0..64u8).map(|at| if (at + at / 8) % 2 == 0 { [0, 20, 0, 255] } else { [90, 70, 0, 255] }).collect();
     let layers = Some(stage.texture([8, 8], &checks, crate::stage::NEAREST));
     let filmed = || Laser { film: FilmKind::ThinFilm, ..Laser::default() };
     let along = |color_direction| Laser {
