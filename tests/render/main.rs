@@ -27,6 +27,7 @@ mod edges;
 mod everything;
 mod fuzz;
 mod goldens;
+mod laser;
 mod lean;
 mod light;
 mod plans;
