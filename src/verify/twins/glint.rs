@@ -2,6 +2,7 @@
 
 use super::super::domain::{ALMOST_ONE, ALPHA, Domain, UNIT};
 use super::super::twin::{Given, Limit, Rule, Twin};
+use super::ULP;
 use crate::material::Flakes;
 use crate::material::reference::glint::{self, Footprint, Tiles};
 use glam::{DMat2, DVec2, DVec3, IVec2};
@@ -162,6 +163,17 @@ pub(super) const TWINS: &[Twin] = &[
             words
         },
     )
+    .allowance(|given| {
+        let flakes = flakes(given);
+        let f = Footprint::new(&flakes, given.vec2(), given.vec2(), given.vec2());
+        // Where a grazing view stretches the pixel to nearly a line, its area is the difference of two products, each of
+        // six roundings; the kernel's is at least that.
+        let (x, y) = (f.pixel.x_axis, f.pixel.y_axis);
+        let rounding = 6.0 * ULP * ((x.x * y.y).abs() + (x.y * y.x).abs());
+        let mut allowed = vec![0.0; 13];
+        allowed[10] = 2.0 * rounding * f.inverse_squared.powf(1.5);
+        allowed
+    })
     .rule(Rule::Stepped(4)),
     Twin::new(
         "glint_flake",
