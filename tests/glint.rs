@@ -81,7 +81,11 @@ fn a_shuffle_leaves_none_out() {
     for fineness in 2..=8 {
         for key in [0, 1, 0xffff_ffff, 0x1234_5678, 0x9e37_79b9] {
             let mut seen = vec![false; 1 << (2 * fineness)];
-            (0..1u32 << (2 * fineness)).for_each(|number| seen[glint::shuffle(number, fineness, key) as usize] = true);
+            for number in 0..1u32 << (2 * fineness) {
+                let shuffled = glint::shuffle(number, fineness, key);
+                seen[shuffled as usize] = true;
+                assert_eq!(glint::unshuffle(shuffled, fineness, key), number);
+            }
             assert!(seen.iter().all(|seen| *seen), "fineness {fineness}, key {key}");
         }
     }
@@ -120,6 +124,11 @@ fn the_flakes_that_flash_are_those_that_are_there() {
         let found = glint::level(&flakes, &footprint, &tiles, square, lobe);
         let all = listed(&flakes, &footprint, 1, square, lobe);
         assert!((found - all).abs().max_element() <= 1e-9 * all.max_element().max(1.0), "{found} {all}");
+        if glint::apart(&footprint) == 1.0 {
+            let discs = glint::discs(&flakes, &footprint, 1);
+            let by_place = glint::discs_flash(&flakes, &discs, square, lobe);
+            assert!((by_place - all).abs().max_element() <= 1e-9 * all.max_element().max(1.0), "{by_place} {all}");
+        }
         lit += u32::from(all.max_element() > 0.0);
     }
     assert!(lit > 20, "{lit} of 2000 pixels see a flash");
@@ -130,7 +139,7 @@ fn values(flakes: &Flakes, width: f64, stretch: f64, count: usize) -> Vec<f64> {
     let mut random = Random(3);
     let one = |_| {
         let footprint = pixel(flakes, &mut random, width, stretch);
-        glint::flash_of_pixel(flakes, &footprint, 2, random.vec2(1.0), 0.0).y
+        glint::flash(flakes, &footprint, 2, random.vec2(1.0), 0.0).y
     };
     (0..count).map(one).collect()
 }

@@ -35,11 +35,20 @@ void main() {
     vec3 place = rest_position_m * glint.cells_per_metre;
     GlintFootprint footprint = glint_footprint(flakes, glint_in_chart(place, chart),
         glint_in_chart(dFdx(place), chart), glint_in_chart(dFdy(place), chart));
+    GlintDiscs discs;
+    discs.apart = 0.0;
+    vec4 cover = vec4(vec3(glint_mean_tint(flakes)), 1.0);
+    if (footprint.blur < 0.45) {
+        discs = glint_discs(flakes, footprint, chart);
+        cover = glint_cover(flakes, discs);
+    }
     GlintLevels levels = glint_levels(footprint.reach, flakes.fineness);
-    GlintTiles near = glint_tiles(footprint, flakes.fineness, levels.first, chart);
-    GlintTiles far = near;
-    if (levels.far > 0.0) { far = glint_tiles(footprint, flakes.fineness, levels.first + 1u, chart); }
-    vec4 discs = glint_discs(flakes, footprint, chart);
+    GlintTiles near;
+    GlintTiles far;
+    if (discs.apart < 1.0) {
+        near = glint_tiles(footprint, flakes.fineness, levels.first, chart);
+        if (levels.far > 0.0) { far = glint_tiles(footprint, flakes.fineness, levels.first + 1u, chart); }
+    }
     // The half vectors of the next pixels are made of these. Taken of the half vector itself, among the lights, derivatives
     // would miss the pixels that the triangle does not cover: lavapipe leaves them out of loops.
     mat3 frame_right = mat3(dFdx(f.world_from_tangent[0]), dFdx(f.world_from_tangent[1]), dFdx(f.world_from_tangent[2]));
@@ -51,10 +60,10 @@ void main() {
     vec2 terms = ggx_albedo_terms(f.eye_in_tangent.z, glint.flake_roughness);
     vec3 compensation = standard_specular_compensation(glint.flake_color, terms.x);
     float alpha = ggx_alpha(glint.flake_roughness);
-    float bare = 1.0 - clamp(share * discs.w, 0.0, 1.0);
+    float bare = 1.0 - clamp(share * cover.w, 0.0, 1.0);
     float metal = share * glint.intensity;
 
-    vec3 flakes_ambient = standard_compensated_albedo(glint.flake_color, terms) * discs.rgb;
+    vec3 flakes_ambient = standard_compensated_albedo(glint.flake_color, terms) * cover.rgb;
     vec3 sum = frame.ambient_radiance * f.occlusion * (bare * standard_ambient(cloth) + metal * flakes_ambient);
     for (uint index = 0u; index < frame.light_count; ++index) {
         LightSample light = light_sample(lights[index], position_in_world);
@@ -67,8 +76,13 @@ void main() {
             vec3 light_below = light_in_tangent + light.direction_in_world * frame_below;
             vec2 right = glint_square(ggx_half_vector(eye_right, light_right), alpha) - square;
             vec2 below = glint_square(ggx_half_vector(eye_below, light_below), alpha) - square;
-            float spread = dot(right, right) + dot(below, below);
-            reflected += metal * smooth_lobe * glint_flash(flakes, footprint, levels, near, far, square, spread);
+            float lobe = glint_lobe(flakes, dot(right, right) + dot(below, below));
+            vec3 flash = vec3(0.0);
+            if (discs.apart > 0.0) { flash += discs.apart * glint_discs_flash(flakes, discs, square, lobe); }
+            if (discs.apart < 1.0) {
+                flash += (1.0 - discs.apart) * glint_tiles_flash(flakes, footprint, levels, near, far, square, lobe);
+            }
+            reflected += metal * smooth_lobe * flash;
         }
         sum += light.irradiance * reflected;
     }
