@@ -288,7 +288,8 @@ GlintDisc glint_disc(GlintFlakes flakes, GlintFootprint footprint, ivec2 place, 
     uvec2 in_tile = uvec2(place) & last;
     uint number = glint_unshuffle(in_tile.x | in_tile.y << flakes.fineness, flakes.fineness, seed.y);
     vec2 cell = vec2(number & last, number >> flakes.fineness) + 0.5;
-    disc.square = 2.0 * fract(cell / float(last + 1u) - vec2(seed.x >> 16u, seed.x & 0xffffu) * (1.0 / 65536.0)) - 1.0;
+    vec2 moved = cell / float(last + 1u) - vec2(seed.x >> 16u, seed.x & 0xffffu) * (1.0 / 65536.0);
+    disc.square = 2.0 * (moved - floor(moved + 0.5));
     return disc;
 }
 
@@ -305,11 +306,12 @@ GlintDiscs glint_discs(GlintFlakes flakes, GlintFootprint footprint, uint chart)
 }
 
 // Tint and share of area of the flakes in a pixel over their mean share: 1 in the mean. Where the pixel no longer tells
-// discs apart, just that.
+// discs apart, just that. Where soft edges meet they cover no more than all, 1 over the discs' share of a rhombus.
 vec4 glint_cover(GlintFlakes flakes, GlintDiscs discs) {
     vec4 mean = vec4(vec3(glint_mean_tint(flakes)), 1.0);
     vec4 sum = discs.first.tinted + discs.right.tinted + discs.up.tinted + discs.both.tinted;
-    return mix(mean, sum, discs.apart);
+    float covered = 3.62759873 * flakes.radius * flakes.radius * sum.w; // pi / sin 60 degrees
+    return mix(mean, sum / max(covered, 1.0), discs.apart);
 }
 
 // Tint times weight of a disc whose lobe holds the half vector; `lobe` in cells, at most half the square.

@@ -60,7 +60,7 @@ void main() {
     vec2 terms = ggx_albedo_terms(f.eye_in_tangent.z, glint.flake_roughness);
     vec3 compensation = standard_specular_compensation(glint.flake_color, terms.x);
     float alpha = ggx_alpha(glint.flake_roughness);
-    float bare = 1.0 - clamp(share * cover.w, 0.0, 1.0);
+    float bare = 1.0 - min(share * cover.w, 1.0);
     float metal = share * glint.intensity;
 
     vec3 flakes_ambient = standard_compensated_albedo(glint.flake_color, terms) * cover.rgb;

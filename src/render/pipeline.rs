@@ -128,8 +128,7 @@ impl PipelineSpec {
         let blend = standard.alpha_mode == AlphaMode::Blend || blends;
 
         let rest = cloth.is_some_and(ClothShader::reads_rest);
-        let vertex_defines =
-            [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("REST", rest), ("COLOR", color)];
+        let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("REST", rest), ("COLOR", color)];
         let fragment_defines = [
             ("UNLIT", unlit),
             ("UV", uv),

@@ -24,6 +24,7 @@ mod determinism;
 mod display;
 mod edges;
 mod everything;
+mod glint;
 mod goldens;
 mod lean;
 mod light;

@@ -4,7 +4,8 @@
 //! Grids"; Kemppinen et al. 2025, "Glinty NDFs in Constant Time"; Shirley & Chiu 1997, "A Low Distortion Map Between Disk
 //! and Square".
 
-use super::{ggx, hash};
+use super::albedo::Fit;
+use super::{ggx, hash, standard};
 use crate::material::Flakes;
 use glam::{DMat2, DVec2, DVec3, IVec2, Vec2Swizzles};
 use std::f64::consts::PI;
@@ -30,7 +31,9 @@ pub fn square(normal: DVec3, alpha: f64) -> DVec2 {
     }
     let disc = (stretched / stretched.length()).truncate();
     // In the quarter around the x axis, x is the radius, and y the angle's share of that quarter.
-    let quarter = |along: f64, aside: f64| disc.length() * DVec2::new(1f64.copysign(along), (aside / along.abs()).atan() / (0.25 * PI));
+    let quarter = |along: f64, aside: f64| {
+        disc.length() * DVec2::new(1f64.copysign(along), (aside / along.abs()).atan() / (0.25 * PI))
+    };
     if disc.x.abs() >= disc.y.abs() { quarter(disc.x, disc.y) } else { quarter(disc.y, disc.x).yx() }
 }
 
@@ -40,7 +43,11 @@ pub fn normal(square: DVec2, alpha: f64) -> DVec3 {
         let (sine, cosine) = if along == 0.0 { (0.0, 1.0) } else { (0.25 * PI * aside / along).sin_cos() };
         along * DVec2::new(cosine, sine)
     };
-    let disc = if square.x.abs() >= square.y.abs() { of_quarter(square.x, square.y) } else { of_quarter(square.y, square.x).yx() };
+    let disc = if square.x.abs() >= square.y.abs() {
+        of_quarter(square.x, square.y)
+    } else {
+        of_quarter(square.y, square.x).yx()
+    };
     DVec3::new(alpha * disc.x, alpha * disc.y, (1.0f64 - disc.length_squared()).max(0.0).sqrt()).normalize()
 }
 
@@ -66,7 +73,13 @@ pub fn unshuffle(shuffled: u32, fineness: u32, key: u32) -> u32 {
 /// Axes of the plane that the lattice lies in, by the surface's normal in the rest pose.
 pub fn chart(normal: DVec3) -> u32 {
     let size = normal.abs();
-    if size.x > size.y.max(size.z) { 0 } else if size.y > size.z { 1 } else { 2 }
+    if size.x > size.y.max(size.z) {
+        0
+    } else if size.y > size.z {
+        1
+    } else {
+        2
+    }
 }
 
 /// A vector in that plane.
@@ -290,7 +303,8 @@ pub fn disc(flakes: &Flakes, footprint: &Footprint, place: IVec2, chart: u32) ->
     let seed = seed(tile, chart * 16);
     let number = unshuffle(at.x + at.y * side as u32, flakes.fineness, seed[1]);
     let cell = DVec2::new(f64::from(number % side as u32), f64::from(number / side as u32)) + 0.5;
-    let square = 2.0 * (cell / f64::from(side) - shift(seed)).fract_gl() - 1.0;
+    let moved = cell / f64::from(side) - shift(seed);
+    let square = 2.0 * (moved - (moved + 0.5).floor());
     Disc { tinted: tint * weight, weight, square }
 }
 
@@ -305,10 +319,13 @@ pub fn apart(footprint: &Footprint) -> f64 {
     ((0.45 - footprint.blur) * 4.0).clamp(0.0, 1.0)
 }
 
-/// Tint and share of area of the flakes in a pixel over their mean share.
+/// Tint and share of area of the flakes in a pixel over their mean share; no more than all of it.
 pub fn cover(flakes: &Flakes, discs: &[Disc; 4], apart: f64) -> (DVec3, f64) {
-    let (tinted, weight) = (discs.iter().map(|disc| disc.tinted).sum(), discs.iter().map(|disc| disc.weight).sum::<f64>());
-    (DVec3::splat(mean_tint(flakes)).lerp(tinted, apart), 1.0 + (weight - 1.0) * apart)
+    let weight: f64 = discs.iter().map(|disc| disc.weight).sum();
+    let mean_share = PI * f64::from(flakes.radius).powi(2) / edges().determinant();
+    let left = 1.0 / (mean_share * weight).max(1.0);
+    let tinted = discs.iter().map(|disc| disc.tinted).sum::<DVec3>() * left;
+    (DVec3::splat(mean_tint(flakes)).lerp(tinted, apart), 1.0 + (weight * left - 1.0) * apart)
 }
 
 /// Tint times weight of a disc whose lobe holds the half vector.
@@ -327,13 +344,7 @@ pub fn discs_flash(flakes: &Flakes, discs: &[Disc; 4], square: DVec2, lobe: f64)
 }
 
 /// The factor on the smooth lobe in a pixel that sees levels of tiles, each with its share.
-pub fn tiles_flash(
-    flakes: &Flakes,
-    footprint: &Footprint,
-    levels: &[(f64, Tiles)],
-    square: DVec2,
-    lobe: f64,
-) -> DVec3 {
+pub fn tiles_flash(flakes: &Flakes, footprint: &Footprint, levels: &[(f64, Tiles)], square: DVec2, lobe: f64) -> DVec3 {
     let seen = lobe.min(0.5);
     let mean = DVec3::splat(mean_tint(flakes));
     let off_mean = |tiles: &Tiles| level(flakes, footprint, tiles, square, seen) - mean;
@@ -354,4 +365,40 @@ pub fn smooth_times_cosine(color: DVec3, compensation: DVec3, alpha: f64, v: DVe
     let h = ggx::half_vector(v, l);
     let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
     color.map(|f0| ggx::schlick(f0, v.dot(h))) * compensation * lobe
+}
+
+/// Flakes over a standard surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Covered {
+    /// The cloth under them.
+    pub cloth: standard::Surface,
+    /// Linear reflectance of the flakes' metal.
+    pub color: DVec3,
+    /// Perceptual, of the lobe that all flakes make up.
+    pub roughness: f64,
+    /// Mean share of the cloth that they cover.
+    pub coverage: f64,
+    /// Share of its light that a flake gives back.
+    pub intensity: f64,
+}
+
+impl Covered {
+    /// Share of the cloth that shows, where flakes cover that share of their mean.
+    fn bare(&self, cover: f64) -> f64 {
+        1.0 - (self.coverage * cover).min(1.0)
+    }
+
+    /// BRDF times `mu_l` in a pixel of that cover and flash; 0 where a direction is at or below the horizon.
+    pub fn brdf_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3, cover: f64, flash: DVec3) -> DVec3 {
+        let metal = standard::Surface { base_color: self.color, metallic: 1.0, roughness: self.roughness };
+        let compensation = metal.specular_compensation(fit, v.z);
+        let lobe = smooth_times_cosine(self.color, compensation, ggx::alpha_of_roughness(self.roughness), v, l);
+        self.cloth.brdf_times_cosine(fit, v, l) * self.bare(cover) + lobe * flash * self.coverage * self.intensity
+    }
+
+    /// Radiance under constant white radiance 1, of a pixel that flakes cover so and with that tint.
+    pub fn ambient(&self, fit: &Fit, mu_v: f64, (tint, cover): (DVec3, f64)) -> DVec3 {
+        let metal = self.color.map(|f0| fit.compensated_albedo(f0, mu_v, self.roughness));
+        self.cloth.ambient(fit, mu_v) * self.bare(cover) + metal * tint * self.coverage * self.intensity
+    }
 }

@@ -7,6 +7,7 @@
 mod claim;
 mod classic;
 mod fur;
+mod glint;
 mod light;
 mod quadrature;
 mod standard;
@@ -93,7 +94,7 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 
 /// Everything that is claimed, ours first.
 pub fn claims() -> Vec<Claim> {
-    [standard::claims(), fur::claims(), classic::claims()].into_iter().flatten().collect()
+    [standard::claims(), fur::claims(), glint::claims(), classic::claims()].into_iter().flatten().collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

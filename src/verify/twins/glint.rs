@@ -162,9 +162,7 @@ pub(super) const TWINS: &[Twin] = &[
             words2(glint::in_chart(vector, chart))
         })
     },
-    Twin::new("glint_length_squared", &[VECTOR], |given| {
-        vec![(glint::edges() * given.vec2()).length_squared()]
-    }),
+    Twin::new("glint_length_squared", &[VECTOR], |given| vec![(glint::edges() * given.vec2()).length_squared()]),
     Twin::new("glint_cross", &[VECTOR, VECTOR], |given| vec![given.vec2().perp_dot(given.vec2())]),
     Twin::new(
         "glint_footprint",
@@ -290,11 +288,15 @@ pub(super) const TWINS: &[Twin] = &[
         words3(glint::disc_flash(&flakes, &disc, given.vec2(), given.number()))
     })
     .rule(KERNEL),
-    Twin::new("glint_discs_flash", &join::<16>(&[&FLAKES, &DISC, &DISC, &DISC, &DISC, &[UNIT, SQUARE, WIDE_LOBE]]), |given| {
-        let (flakes, discs) = (flakes(given), discs(given));
-        let _apart = given.number();
-        words3(glint::discs_flash(&flakes, &discs, given.vec2(), given.number()))
-    })
+    Twin::new(
+        "glint_discs_flash",
+        &join::<16>(&[&FLAKES, &DISC, &DISC, &DISC, &DISC, &[UNIT, SQUARE, WIDE_LOBE]]),
+        |given| {
+            let (flakes, discs) = (flakes(given), discs(given));
+            let _apart = given.number();
+            words3(glint::discs_flash(&flakes, &discs, given.vec2(), given.number()))
+        },
+    )
     .rule(KERNEL),
     Twin::new(
         "glint_tiles_flash",
