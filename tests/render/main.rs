@@ -26,6 +26,7 @@ mod display;
 mod edges;
 mod everything;
 mod fuzz;
+mod glint;
 mod goldens;
 mod laser;
 mod lean;

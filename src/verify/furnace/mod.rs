@@ -11,6 +11,7 @@ mod fuzz;
 mod layered;
 mod laser;
 mod fuzz;
+mod glint;
 mod light;
 mod quadrature;
 mod sheen;
@@ -107,6 +108,7 @@ pub fn claims() -> Vec<Claim> {
         [standard::claims, layered::claims, fur::claims, sheen::claims, fuzz::claims, classic::claims];
     families.into_iter().flat_map(|claims| claims()).collect()
     [standard::claims(), fur::claims(), laser::claims(), classic::claims()].into_iter().flatten().collect()
+    [standard::claims(), fur::claims(), glint::claims(), classic::claims()].into_iter().flatten().collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas
