@@ -18,7 +18,7 @@ const MODELS: [SheenModel; 3] = [SheenModel::Ltc, SheenModel::Charlie, SheenMode
 
 /// Texture units may place a texel to 1/256 of one: what that moves, the table's entries change by. Roughness from 0.3, below
 /// which a of the lobe doubles from one node to the next.
-const TABLE: f64 = 4e-3;
+const TABLE: f64 = 1e-3;
 
 /// One cloth, how it is seen, and its radiance in double precision: view, light -> BRDF times cosine, and ambient.
 struct Cell {
@@ -232,7 +232,8 @@ fn unlit_zero() {
         let mut of_light = |cloth: &Cloth, irradiance| {
             let mut stage = Stage::front(0.5);
             let material = stage.material(plain());
-            stage.object(quad(0.8, 0.8), material, at(Vec3::ZERO));
+            let turned = Transform::Trs { translation: Vec3::ZERO, rotation: tilt(60.0), scale: Vec3::ONE };
+            stage.object(quad(1.6, 0.8), material, turned);
             if let Some(irradiance) = irradiance {
                 stage.light(LightKind::Directional, irradiance, Vec3::ZERO, Vec3::new(0.8, 0.0, 0.6));
             }
