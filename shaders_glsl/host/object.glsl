@@ -6,7 +6,7 @@ struct ObjectUniforms {
     mat4 world_from_object;    // identity for skinned objects: the deform pass already wrote world space
     mat4 normal_from_object;   // cofactor matrix of world_from_object, for normals
     float handedness;          // -1 where world_from_object mirrors, otherwise 1
-    float _reserved_0;
+    float world_from_rest;     // metres per unit of the rest pose
     float _reserved_1;
     float _reserved_2;
 };

@@ -28,6 +28,12 @@ layout(location = 3) out vec4 tangent_in_world;
 layout(location = 5) in vec4 color;
 layout(location = 4) out vec4 vertex_color;
 #endif
+#ifdef REST
+layout(location = 6) in vec3 rest_position;
+layout(location = 7) in vec3 rest_normal;
+layout(location = 5) out vec3 rest_position_m;
+layout(location = 6) out vec3 normal_in_rest;
+#endif
 
 void main() {
     mat4 world_from_object = objects[draw.object_index].world_from_object;
@@ -48,5 +54,9 @@ void main() {
 #endif
 #ifdef COLOR
     vertex_color = color;
+#endif
+#ifdef REST
+    rest_position_m = rest_position * objects[draw.object_index].world_from_rest;
+    normal_in_rest = rest_normal;
 #endif
 }

@@ -44,7 +44,7 @@ impl FrameData {
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
         let frame = frame_uniforms(camera, lighting);
         let objects: Vec<ObjectUniforms> =
-            plan.instances.iter().map(|instance| object_uniforms(instance.world_from_object)).collect();
+            plan.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
         let mut data = Self {
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
             lights: if lit {
@@ -144,11 +144,13 @@ fn force_in_world(fur: &Fur, scene: &Scene, instance: &Instance, pose: &Pose) ->
     carrier.transform_vector3(fur.force).normalize_or(Vec3::ZERO) * fur.force_strength
 }
 
-fn object_uniforms(world_from_object: Mat4) -> ObjectUniforms {
+fn object_uniforms(scene: &Scene, instance: &Instance) -> ObjectUniforms {
+    let world_from_object = instance.world_from_object;
     ObjectUniforms {
         world_from_object: world_from_object.to_cols_array_2d(),
         normal_from_object: Mat4::from_mat3(normal_matrix(world_from_object)).to_cols_array_2d(),
         handedness: if world_from_object.determinant() < 0.0 { -1.0 } else { 1.0 },
+        world_from_rest: scene.size(instance).world_from_rest,
         ..Default::default()
     }
 }

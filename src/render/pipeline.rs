@@ -127,7 +127,8 @@ impl PipelineSpec {
         let blends = cloth.is_some_and(|cloth| cloth.blends);
         let blend = standard.alpha_mode == AlphaMode::Blend || blends;
 
-        let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("COLOR", color)];
+        let rest = cloth.is_some_and(ClothShader::reads_rest);
+        let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("REST", rest), ("COLOR", color)];
         let fragment_defines = [
             ("UNLIT", unlit),
             ("UV", uv),

@@ -80,6 +80,7 @@ pub fn inputs(vertex: &Shader) -> Vec<Input> {
         "shell_direction" => (Stream::ShellDirection, false),
         "shell_side" => (Stream::ShellSide, false),
         "sway" => (Stream::Sway, false),
+        "rest_normal" => (Stream::Normal, true),
         "rest_position" => (Stream::Position, true),
         "rest_direction" => (Stream::ShellDirection, true),
         other => panic!("no vertex stream is named {other}"),

@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
+use super::lint;
 use crate::asset::procedural::{SWATCH_MATERIAL, swatch};
 use crate::asset::{
     self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
@@ -61,6 +62,7 @@ impl Scene {
         let materials = material::from_asset(&mut asset, &mut images_of(folder_of(path), options, &mut budget))
             .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
         add_missing_tangents(&mut asset, &materials, &mut budget)?;
+        lint::maps(&mut asset, &materials);
         asset.loaded_bytes = budget.spent_bytes;
         Ok(Self::new(asset, materials))
     }
@@ -94,6 +96,7 @@ impl Scene {
         let unlimited = LoadOptions { memory_limit_bytes: u64::MAX, ..LoadOptions::default() };
         let mut budget = Budget::of(&asset, "scene".to_owned(), &unlimited);
         add_missing_tangents(&mut asset, &materials, &mut budget)?;
+        lint::maps(&mut asset, &materials);
         Ok(Self::new(asset, materials))
     }
 
@@ -105,6 +108,7 @@ impl Scene {
         let mut budget = Budget::of(&self.asset, "look".to_owned(), options);
         look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
         add_missing_tangents(&mut self.asset, &self.materials, &mut budget)?;
+        lint::maps(&mut self.asset, &self.materials);
         self.asset.loaded_bytes = budget.spent_bytes;
         let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
         *self = Self::new(asset, materials);

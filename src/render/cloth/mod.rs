@@ -1,6 +1,10 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod gauze;
+mod layered;
+mod glint;
+mod laser;
 mod cotton;
 mod satin;
 mod sheen;
@@ -29,11 +33,22 @@ pub struct ClothShader {
     pub blends: bool,
 }
 
+impl ClothShader {
+    /// Whether it asks the vertices where they are in the rest pose.
+    pub fn reads_rest(&self) -> bool {
+        self.file == "glint.frag"
+    }
+}
+
 /// The shader of a cloth over its standard parameters.
 pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
     match cloth {
+        Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
+        Cloth::Laser(laser) => laser::shader(laser, standard),
+        Cloth::Glint(glint) => glint::shader(glint, standard),
         Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
         Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
+        Cloth::Layered(layered) => layered::shader(layered, standard),
     }
 }
