@@ -1,11 +1,11 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::cotton::Cotton;
 use super::gauze::Gauze;
 use super::glint::Glint;
-use super::cotton::Cotton;
 use super::kind::TextureSource;
-use super::layered::Layered;
 use super::laser::Laser;
+use super::layered::Layered;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;

@@ -1,11 +1,11 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod cotton;
 mod gauze;
-mod layered;
 mod glint;
 mod laser;
-mod cotton;
+mod layered;
 mod satin;
 mod sheen;
 mod velvet;

@@ -9,13 +9,12 @@ mod direction;
 mod film;
 mod fuzz;
 mod gauze;
-mod fuzz;
 mod ggx;
 mod glint;
 mod hash;
-mod layered;
 mod hsv;
 mod laser;
+mod layered;
 mod light;
 mod lock;
 mod satin;
@@ -41,7 +40,10 @@ const FILES: &[&[Twin]] = &[
     fuzz::TWINS,
     gauze::TWINS,
     ggx::TWINS,
+    glint::TWINS,
     hash::TWINS,
+    hsv::TWINS,
+    laser::TWINS,
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
@@ -57,31 +59,6 @@ const FILES: &[&[Twin]] = &[
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    const FILES: &[&[Twin]] = &[
-    let files: [&'static [Twin]; 17] = [
-        albedo::TWINS,
-        anisotropy::TWINS,
-        color::TWINS,
-        coverage::TWINS,
-        direction::TWINS,
-        gauze::TWINS,
-        film::TWINS,
-        fuzz::TWINS,
-        ggx::TWINS,
-        glint::TWINS,
-        hash::TWINS,
-        hsv::TWINS,
-        laser::TWINS,
-        light::TWINS,
-        lock::TWINS,
-        satin::TWINS,
-        sheen::TWINS,
-        standard::TWINS,
-        strand::TWINS,
-        sway::TWINS,
-        tonemap::TWINS,
-        uv::TWINS,
-    ];
     FILES.iter().copied().flatten()
 }
 
