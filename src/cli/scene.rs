@@ -160,6 +160,7 @@ impl SceneArguments {
                 TonemapChoice::None => Tonemap::None,
             },
             exposure_ev: self.exposure,
+            ambient_radiance: None,
             background: self.background,
             hdr_format: match self.hdr_format {
                 HdrChoice::Rgba16f => HdrFormat::Rgba16f,

@@ -17,6 +17,7 @@ mod stage;
 
 mod blending;
 mod camera;
+mod cloth;
 mod coat;
 mod count;
 mod deform;
@@ -24,6 +25,8 @@ mod determinism;
 mod display;
 mod edges;
 mod everything;
+mod fuzz;
+mod glint;
 mod goldens;
 mod laser;
 mod lean;

@@ -7,9 +7,14 @@
 mod claim;
 mod classic;
 mod fur;
+mod fuzz;
+mod layered;
 mod laser;
+mod fuzz;
+mod glint;
 mod light;
 mod quadrature;
+mod sheen;
 mod standard;
 
 pub use claim::{Claim, Input, Measure};
@@ -95,6 +100,15 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 /// Everything that is claimed, ours first.
 pub fn claims() -> Vec<Claim> {
     [standard::claims(), fur::claims(), laser::claims(), classic::claims()].into_iter().flatten().collect()
+    [standard::claims(), fur::claims(), sheen::claims(), fuzz::claims(), classic::claims()]
+        .into_iter()
+        .flatten()
+        .collect()
+    let families: [fn() -> Vec<Claim>; 6] =
+        [standard::claims, layered::claims, fur::claims, sheen::claims, fuzz::claims, classic::claims];
+    families.into_iter().flat_map(|claims| claims()).collect()
+    [standard::claims(), fur::claims(), laser::claims(), classic::claims()].into_iter().flatten().collect()
+    [standard::claims(), fur::claims(), glint::claims(), classic::claims()].into_iter().flatten().collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

@@ -3,29 +3,62 @@
 mod albedo;
 mod anisotropy;
 mod color;
+mod cotton;
 mod coverage;
 mod direction;
 mod film;
+mod fuzz;
 mod gauze;
+mod fuzz;
 mod ggx;
 mod glint;
 mod hash;
+mod layered;
 mod hsv;
 mod laser;
 mod light;
 mod lock;
 mod satin;
+mod sheen;
 mod standard;
 mod strand;
 mod sway;
 mod tonemap;
 mod uv;
+mod velvet;
 
 use super::twin::Twin;
+
+/// Every file's.
+const FILES: &[&[Twin]] = &[
+    albedo::TWINS,
+    anisotropy::TWINS,
+    color::TWINS,
+    cotton::TWINS,
+    coverage::TWINS,
+    direction::TWINS,
+    film::TWINS,
+    fuzz::TWINS,
+    gauze::TWINS,
+    ggx::TWINS,
+    hash::TWINS,
+    layered::TWINS,
+    light::TWINS,
+    lock::TWINS,
+    satin::TWINS,
+    sheen::TWINS,
+    standard::TWINS,
+    strand::TWINS,
+    sway::TWINS,
+    tonemap::TWINS,
+    uv::TWINS,
+    velvet::TWINS,
+];
 
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
     const FILES: &[&[Twin]] = &[
+    let files: [&'static [Twin]; 17] = [
         albedo::TWINS,
         anisotropy::TWINS,
         color::TWINS,
@@ -33,6 +66,7 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         direction::TWINS,
         gauze::TWINS,
         film::TWINS,
+        fuzz::TWINS,
         ggx::TWINS,
         glint::TWINS,
         hash::TWINS,
@@ -41,6 +75,7 @@ pub fn twins() -> impl Iterator<Item = &'static Twin> {
         light::TWINS,
         lock::TWINS,
         satin::TWINS,
+        sheen::TWINS,
         standard::TWINS,
         strand::TWINS,
         sway::TWINS,
