@@ -31,19 +31,48 @@ fn main() -> std::io::Result<()> {
     };
     let entries: Vec<_> = (0..nodes * nodes * Sheen::ALL.len()).into_par_iter().map(of_node).collect();
     let at = |sheet: Sheen, column: usize, row: usize| entries[(sheet as usize * nodes + row) * nodes + column];
+    let lifts = Sheen::ALL.map(|sheet| lift(sheet, |column, row| at(sheet, column, row).albedo));
     let table = SheenTable::from_entries(|sheet, column, row| {
-        let entry = at(sheet, column, row);
-        if sheet != Sheen::Volume || entry.a > 0.0 {
-            return entry;
+        let mut entry = at(sheet, column, row);
+        entry.albedo = (entry.albedo * lifts[sheet as usize]).min(1.0);
+        if sheet == Sheen::Volume && entry.a == 0.0 {
+            // Nothing came back whose lobe could be fitted; the next that has one keeps what lies between them smooth.
+            let grazing = (0..column).rev().map(|column| at(sheet, column, row));
+            let rougher = (row + 1..nodes).map(|row| at(sheet, column, row));
+            let near = grazing.chain(rougher).find(|near| near.a > 0.0).unwrap_or_default();
+            (entry.a, entry.b) = (near.a, near.b);
         }
-        // Nothing came back whose lobe could be fitted; the next that has one keeps what lies between them smooth.
-        let grazing = (0..column).rev().map(|column| at(sheet, column, row));
-        let rougher = (row + 1..nodes).map(|row| at(sheet, column, row));
-        let near = grazing.chain(rougher).find(|near| near.a > 0.0).unwrap_or_default();
-        SheenEntry { albedo: entry.albedo, ..near }
+        if column == nodes - 1 {
+            // Seen from straight above there is no side to lean to.
+            entry.b = 0.0;
+        }
+        entry
     });
+    eprintln!("factors: {lifts:?}");
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/material/sheen.f16");
     std::fs::write(path, table.to_bytes())
+}
+
+/// Factor on a sheet that keeps its interpolated albedo from falling below the truth: there the cloth below would get more
+/// than the fuzz leaves. The transformed cosine integrates to whatever the table says, and the classic sheet is what it is.
+fn lift(sheet: Sheen, node: impl Fn(usize, usize) -> f64 + Sync) -> f64 {
+    if matches!(sheet, Sheen::Volume | Sheen::Classic) {
+        return 1.0;
+    }
+    let cells = SheenTable::NODES - 1;
+    let of_cell = |cell: usize| {
+        let (column, row) = (cell % cells, cell / cells);
+        let lack = |right: f64, down: f64| {
+            let place = |node, share: f64| SheenTable::place(node) + share / cells as f64;
+            let truth = albedo(sheet, place(column, right).powi(2), place(row, down));
+            let mix = |row| node(column, row) * (1.0 - right) + node(column + 1, row) * right;
+            let found = mix(row) * (1.0 - down) + mix(row + 1) * down;
+            // Where next to nothing comes back a ratio says nothing.
+            if truth > 0.01 { truth / found } else { 1.0 }
+        };
+        lack(0.5, 0.0).max(lack(0.0, 0.5)).max(lack(0.5, 0.5))
+    };
+    (0..cells * cells).into_par_iter().map(of_cell).reduce(|| 1.0, f64::max)
 }
 
 /// Seeded numbers in (0, 1).

@@ -6,6 +6,7 @@
 mod cache;
 mod device;
 mod devices;
+mod families;
 mod inspect;
 mod output;
 mod presets;

@@ -3,9 +3,11 @@
 
 use crate::headless::{Headless, headless};
 use crate::limit::{RELATIVE, all_hold, within};
+use crate::scenes::three_lights;
 use crate::stage::{Stage, at, options, plain, quad};
 use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
+use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::classic::{cotton as classic_cotton, velvet as classic_velvet};
 use vair::material::reference::fuzz::{COTTON_F0, Surface};
@@ -18,7 +20,7 @@ const MODELS: [SheenModel; 3] = [SheenModel::Ltc, SheenModel::Charlie, SheenMode
 
 /// Texture units may place a texel to 1/256 of one: what that moves, the table's entries change by. Roughness from 0.3, below
 /// which a of the lobe doubles from one node to the next.
-const TABLE: f64 = 4e-3;
+const TABLE: f64 = 1e-3;
 
 /// One cloth, how it is seen, and its radiance in double precision: view, light -> BRDF times cosine, and ambient.
 struct Cell {
@@ -232,7 +234,8 @@ fn unlit_zero() {
         let mut of_light = |cloth: &Cloth, irradiance| {
             let mut stage = Stage::front(0.5);
             let material = stage.material(plain());
-            stage.object(quad(0.8, 0.8), material, at(Vec3::ZERO));
+            let turned = Transform::Trs { translation: Vec3::ZERO, rotation: tilt(60.0), scale: Vec3::ONE };
+            stage.object(quad(1.6, 0.8), material, turned);
             if let Some(irradiance) = irradiance {
                 stage.light(LightKind::Directional, irradiance, Vec3::ZERO, Vec3::new(0.8, 0.0, 0.6));
             }
@@ -290,4 +293,43 @@ fn fibres_that_do_not_stand_cost_nothing() {
     };
     let textures = |scene: &Scene| Shot::new(scene, &options([4, 4], 1)).unwrap().plan.textures.len();
     assert!(textures(&mapped(Vec3::ZERO)) < textures(&mapped(Vec3::ONE)));
+}
+
+/// Cotton above: ltc, Charlie, classic; velvet below: ltc, inverted, classic.
+pub fn fuzz_balls() -> Scene {
+    let mut stage = Stage::default();
+    stage.parallel_camera(1.0, Vec3::new(0.0, 0.2, 1.0), Vec3::Y);
+    let cotton = Cotton { sheen_color: Vec3::new(0.6, 0.5, 0.7), ..Cotton::default() };
+    let velvet = Velvet { scatter_color: Vec3::new(0.9, 0.15, 0.25), ..Velvet::default() };
+    let rows = [
+        (
+            Vec3::new(0.12, 0.16, 0.35),
+            [
+                Cloth::Cotton(cotton.clone()),
+                Cloth::Cotton(Cotton { sheen: SheenModel::Charlie, ..cotton.clone() }),
+                Cloth::Cotton(Cotton { classic: true, ..cotton }),
+            ],
+        ),
+        (
+            Vec3::new(0.07, 0.002, 0.012),
+            [
+                Cloth::Velvet(velvet.clone()),
+                Cloth::Velvet(Velvet { sheen: SheenModel::Inverted, ..velvet.clone() }),
+                Cloth::Velvet(Velvet { classic: true, ..velvet }),
+            ],
+        ),
+    ];
+    for (row, (color, cloths)) in rows.iter().enumerate() {
+        for column in 0..cloths.len() {
+            let material = Material { base_color: color.extend(1.0), roughness: 0.6, ..plain() };
+            let material = stage.material(material);
+            let place = Vec3::new(column as f32 - 1.0, 0.48 - 0.96 * row as f32, 0.0);
+            stage.object(sphere(0.42, 12), material, at(place));
+        }
+    }
+    three_lights(&mut stage);
+    let mut scene = stage.scene();
+    let cloths = rows.into_iter().flat_map(|(_, cloths)| cloths);
+    scene.materials_mut().iter_mut().zip(cloths).for_each(|(material, cloth)| material.cloth = Some(cloth));
+    scene
 }

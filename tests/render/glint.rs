@@ -46,8 +46,8 @@ fn a_quad_shows_the_flakes_of_its_twin() {
         intensity: glint.intensity.into(),
     };
     headless(|device| {
-        // Discs of 40 pixels, of two, and many in one pixel.
-        for half_m in [0.01, 0.2, 1.9] {
+        // Discs of 10 pixels, of two, and many in one pixel.
+        for half_m in [0.04, 0.2, 1.9] {
             let picture = device.picture(&front(glint.clone(), half_m, at(Vec3::ZERO)), &options(size, 1));
             let pixel = 2.0 * f64::from(half_m) / f64::from(size[0]) * f64::from(flakes.cells_per_metre);
             let (mut error, mut lit) = (0.0, 0);
