@@ -7,7 +7,7 @@ use vair::verify::{Claim, Input, claims, furnace};
 #[test]
 fn ours_keep_every_promise_and_classic_ones_decide_nothing() {
     let properties = furnace(100);
-    for material in ["standard", "fur"] {
+    for material in ["standard", "fur", "glint"] {
         assert!(properties.iter().filter(|property| property.material == material && !property.classic).count() >= 5);
     }
     for property in &properties {

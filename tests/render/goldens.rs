@@ -2,7 +2,7 @@
 
 use crate::golden::{Limits, bless, compare, folder, is_pinned};
 use crate::headless::headless;
-use crate::scenes::{balls, fur_ball, fur_cube};
+use crate::scenes::{balls, fur_ball, fur_cube, glint_balls};
 use std::path::Path;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::gpu::DeviceInfo;
@@ -29,8 +29,9 @@ const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mea
 const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
-pub const GOLDENS: [Golden; 4] = [
+pub const GOLDENS: [Golden; 5] = [
     Golden { name: "standard-balls", scene: balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "glint-balls", scene: glint_balls, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-ball", scene: fur_ball, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-cube", scene: fur_cube, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "gallery", scene: Scene::gallery, camera: hero, pinned: SAME, other: HAIRY },
