@@ -119,6 +119,7 @@ fn tiny_report() -> Report {
         reference_samples: 2,
         rounds: 3,
         time_limit: None,
+        furnace_points: 1,
     };
     let question = Question {
         name: "fur layers",
@@ -136,7 +137,7 @@ fn tiny_report() -> Report {
         }
     })
     .unwrap();
-    assert_eq!(stages, ["references", "errors", "times"]);
+    assert_eq!(stages, ["references", "errors", "times", "furnace"]);
     let messages = gpu.validation_log().messages();
     assert!(messages.is_empty(), "{messages:?}");
     report
@@ -199,6 +200,12 @@ fn check_json(json: &Value) {
         }
     }
     assert_eq!(features[0]["points"].as_array().unwrap().len(), 2 * (3 + 3), "classic methods have 20 layers, too");
+    let furnace = json["furnace"].as_array().unwrap();
+    assert!(
+        furnace.iter().any(|property| property["classic"] == true && property["pass"] == false),
+        "satin gains light"
+    );
+    assert!(furnace.iter().all(|property| property["classic"] == true || property["pass"] == true));
     // 8, 32 and the coat's own layers are measured for the headline whatever the questions ask for.
     let headline = json["headline"].as_object().unwrap();
     let keys: Vec<&str> = headline.keys().map(String::as_str).collect();

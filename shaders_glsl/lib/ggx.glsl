@@ -12,6 +12,15 @@ float ggx_alpha(float roughness) {
     return clamp(roughness * roughness, 1e-3, 1.0);
 }
 
+// Widths along tangent and bitangent, anisotropy in [-1, 1], positive: stretched along the tangent. The axis ratio is
+// (1 + a) : (1 - a), the product roughness^4 until a width reaches its limit.
+vec2 ggx_anisotropic_alpha(float roughness, float anisotropy) {
+    float a = clamp(anisotropy, -0.98, 0.98);
+    float stretch = sqrt((1.0 + a) / (1.0 - a));
+    float alpha = roughness * roughness;
+    return clamp(vec2(alpha * stretch, alpha / stretch), 1e-3, 1.0);
+}
+
 // Distribution of normals per steradian; ax, ay in (0, 1]. A unit h gives s >= 1; the zero h of opposed directions 0.
 float ggx_ndf(vec3 h_in_tangent, float ax, float ay) {
     float x = h_in_tangent.x / ax;

@@ -20,20 +20,25 @@ struct StandardSurface {
     vec3 specular_albedo;       // E(v) of the compensated lobe
 };
 
-// base_color linear in [0, 1]; metallic, roughness in [0, 1]; mu_v = cosine of the view angle, [0, 1].
-StandardSurface standard_surface(vec3 base_color, float metallic, float roughness, float mu_v) {
+// f0 and diffuse linear in [0, 1]; roughness in [0, 1]; mu_v = cosine of the view angle, [0, 1].
+StandardSurface standard_coupled(vec3 f0, vec3 diffuse, float roughness, float mu_v) {
     StandardSurface s;
     s.roughness = roughness;
     s.alpha_x = ggx_alpha(roughness);
     s.alpha_y = s.alpha_x;
-    s.f0 = 0.04 + (base_color - 0.04) * metallic;
-    s.diffuse = base_color * (1.0 - metallic);
+    s.f0 = f0;
+    s.diffuse = diffuse;
     vec2 terms = ggx_albedo_terms(mu_v, roughness);
     s.specular_albedo = standard_compensated_albedo(s.f0, terms);
     s.specular_compensation = standard_specular_compensation(s.f0, terms.x);
     vec3 average = standard_average_compensated_albedo(s.f0, ggx_average_terms(roughness));
     s.coupled_diffuse = s.diffuse * 0.318309886 * (1.0 - s.specular_albedo) / max(1.0 - average, 1e-4);
     return s;
+}
+
+// base_color linear in [0, 1]; metallic in [0, 1].
+StandardSurface standard_surface(vec3 base_color, float metallic, float roughness, float mu_v) {
+    return standard_coupled(0.04 + (base_color - 0.04) * metallic, base_color * (1.0 - metallic), roughness, mu_v);
 }
 
 // BRDF times the cosine of l, per channel; 0 where either direction is at or below the horizon.

@@ -1,11 +1,17 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::cotton::Cotton;
+use super::gauze::Gauze;
 use super::glint::Glint;
 use super::kind::TextureSource;
+use super::laser::Laser;
+use super::layered::Layered;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
+use super::velvet::Velvet;
 use super::{Fur, Standard};
+use crate::asset::TextureRef;
 
 /// Declares the families: `Variant = "kind"`, with the parameters of the struct of that name.
 macro_rules! cloths {
@@ -58,6 +64,13 @@ macro_rules! cloths {
                 }
             }
 
+            /// [`Family::textures`] of the family that it is.
+            pub fn textures(&self) -> Vec<(&'static str, TextureRef)> {
+                match self {
+                    $(Self::$family(family) => family.textures(),)*
+                }
+            }
+
             /// [`Family::clamp`] of the family that it is.
             pub fn clamp(&mut self) {
                 match self {
@@ -73,8 +86,18 @@ macro_rules! cloths {
 }
 
 cloths! {
+    /// Organza, chiffon, tulle: sheer face on, dense at its edges.
+    Gauze = "gauze";
+    /// Iridescent film on cloth or metal.
+    Laser = "laser";
     /// Sequins, lurex, glitter yarn: flakes that flash one by one.
     Glint = "glint";
+    /// Jersey, denim, flannel, felt: cloth with fuzz.
+    Cotton = "cotton";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
+    /// Velvet, corduroy: a dense pile, dark from the front and bright at its folds.
+    Velvet = "velvet";
+    /// Whatever glTF's material extensions put on top of each other.
+    Layered = "layered";
 }

@@ -67,6 +67,11 @@ pub trait Kind {
 
     /// Brings it into the range; what is not finite becomes the default.
     fn clamp(stored: &mut Self::Stored, default: Self::Stored, range: (f64, f64));
+
+    /// The texture that it is, if it is one.
+    fn texture(_: &Self::Stored) -> Option<TextureRef> {
+        None
+    }
 }
 
 pub(crate) fn wrong_type(parameter: &Parameter, value: &Value) -> ParameterError {
@@ -394,6 +399,10 @@ impl Kind for Map {
 
     fn show(_: &Self::Stored) -> String {
         "none".to_owned()
+    }
+
+    fn texture(stored: &Self::Stored) -> Option<TextureRef> {
+        *stored
     }
 
     fn clamp(stored: &mut Self::Stored, _: Self::Stored, _: (f64, f64)) {

@@ -7,6 +7,7 @@
 use super::kind::{Form, Kind, TextureSource};
 use super::nearest::nearest;
 use super::value::Value;
+use crate::asset::TextureRef;
 
 /// What is known of one parameter.
 #[derive(Debug, Clone, Copy)]
@@ -113,6 +114,9 @@ pub trait Family: Default {
     /// Brings every field into its range; what is not finite becomes the default. For values that were set from Rust.
     fn clamp(&mut self);
 
+    /// The textures that are set, by name.
+    fn textures(&self) -> Vec<(&'static str, TextureRef)>;
+
     /// The parameter of that name.
     fn parameter(key: &str) -> Option<&'static Parameter> {
         Self::PARAMETERS.iter().find(|parameter| parameter.name == key)
@@ -182,6 +186,11 @@ macro_rules! parameters {
                     _ => return Err(Self::unknown(key)),
                 }
                 Ok(())
+            }
+
+            fn textures(&self) -> Vec<(&'static str, $crate::asset::TextureRef)> {
+                let all = [$((stringify!($name), <$kind as $crate::material::kind::Kind>::texture(&self.$name)),)*];
+                all.into_iter().filter_map(|(name, texture)| Some((name, texture?))).collect()
             }
 
             fn clamp(&mut self) {

@@ -22,6 +22,12 @@ impl Preset {
         self.section.kind().unwrap_or("standard")
     }
 
+    /// Whether it is what `name` asks for: hyphens, spaces and case are the same.
+    pub fn is_named(&self, name: &str) -> bool {
+        let plain = |name: &str| name.trim().to_lowercase().replace(['-', '_'], " ");
+        plain(&self.name) == plain(name)
+    }
+
     /// The keys that it sets, with their values.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.section.entries.iter().map(|entry| (entry.key.as_str(), &entry.value))
@@ -52,8 +58,7 @@ pub fn presets() -> &'static [Preset] {
 
 /// The preset of that name.
 pub(crate) fn find(name: &str, place: &str) -> Result<&'static Preset, MaterialError> {
-    let plain = |name: &str| name.trim().to_lowercase().replace(['-', '_'], " ");
-    presets().iter().find(|preset| plain(&preset.name) == plain(name)).ok_or_else(|| {
+    presets().iter().find(|preset| preset.is_named(name)).ok_or_else(|| {
         let names = || presets().iter().map(|preset| preset.name.as_str());
         MaterialError::UnknownPreset {
             place: place.to_owned(),

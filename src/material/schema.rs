@@ -97,7 +97,7 @@ fn texture() -> Value {
                 "type": "object",
                 "properties": {
                     "file": { "type": "string" },
-                    "procedural": { "enum": procedural::NAMES },
+                    "procedural": { "enum": procedural::names().collect::<Vec<_>>() },
                     "tiling": pair,
                     "offset": pair,
                     "rotation": { "type": "number", "description": "Degrees." },

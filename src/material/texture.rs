@@ -14,7 +14,7 @@ use std::collections::HashMap;
 pub enum ImageName {
     /// A file, relative to the folder of the look or scene.
     File(String),
-    /// One of [`procedural::NAMES`].
+    /// One of [`procedural::ALL`].
     Procedural(String),
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn read(
 fn malformed(key: &str, value: &Value) -> String {
     let expected = match key {
         "file" => "the name of a PNG or JPEG file".to_owned(),
-        "procedural" => format!("one of {}", procedural::NAMES.join(", ")),
+        "procedural" => format!("one of {}", procedural::names().collect::<Vec<_>>().join(", ")),
         "rotation" => "degrees".to_owned(),
         "uv_set" => format!("0 to {}", MAX_UV_SETS - 1),
         _ => "a number or [u, v]".to_owned(),
@@ -108,7 +108,7 @@ impl TextureSource for Appended<'_> {
         let image = match name {
             ImageName::File(file) => (self.read_image)(file)?,
             ImageName::Procedural(pattern) => procedural::image(pattern).ok_or_else(|| {
-                let near = nearest(pattern, procedural::NAMES).map(|name| format!(", did you mean `{name}`?"));
+                let near = nearest(pattern, procedural::names()).map(|name| format!(", did you mean `{name}`?"));
                 format!("unknown procedural image `{pattern}`{}", near.unwrap_or_default())
             })?,
         };

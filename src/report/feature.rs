@@ -8,6 +8,7 @@ use super::statistics::{Spread, pareto_front};
 use super::sweep::{FrameMs, Measurement, Recipe, Sweep};
 use super::{Effort, View};
 use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::verify::{Property, furnace};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The reference's noise should be at most this share of an error that is compared with it.
@@ -87,6 +88,8 @@ pub struct Report {
     pub features: Vec<Feature>,
     /// The three figures.
     pub headline: Headline,
+    /// What the formulas promise, and those of older engines beside them.
+    pub furnace: Vec<Property>,
 }
 
 impl Report {
@@ -112,6 +115,7 @@ impl Report {
             default_layers: cases.default_layers,
             headline: Headline::new(questions, sweep, clock, cases.default_layers),
             features,
+            furnace: furnace(effort.furnace_points),
         }
     }
 

@@ -28,6 +28,7 @@ use crate::gpu::Gpu;
 use crate::oracle::OracleError;
 use crate::render::RenderError;
 use crate::scene::SceneError;
+use crate::verify::RANDOM_POINTS;
 use case::Cases;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -92,6 +93,8 @@ pub struct Effort {
     pub rounds: usize,
     /// When no further round begins, from three rounds on.
     pub time_limit: Option<Duration>,
+    /// Random points at which each promise of a formula is tried, beside the corners of its parameters.
+    pub furnace_points: usize,
 }
 
 impl Effort {
@@ -105,6 +108,7 @@ impl Effort {
             reference_samples: 24,
             rounds: 9,
             time_limit: Some(Duration::from_secs(30)),
+            furnace_points: 300,
         }
     }
 
@@ -118,6 +122,7 @@ impl Effort {
             reference_samples: 256,
             rounds: 31,
             time_limit: None,
+            furnace_points: RANDOM_POINTS,
         }
     }
 
@@ -144,5 +149,6 @@ pub fn measure(
     let mut recipes: Vec<_> = questions.iter().flat_map(feature::recipes).collect();
     recipes.extend(headline::recipes(cases.default_layers));
     let sweep = sweep::sweep(gpu, &cases, &recipes, effort, progress)?;
+    progress("furnace", 0, 1);
     Ok(Report::new(gpu.info(), questions, &cases, &sweep, effort))
 }

@@ -4,6 +4,8 @@ use super::feature::{Clock, Point, Report};
 use super::plot::Plot;
 use super::statistics::pareto_front;
 use super::{LAYERS_4X, Method, View};
+use crate::verify::{Property, short};
+use std::collections::BTreeSet;
 
 const STYLE: &str = "\
 :root{color-scheme:light dark;--ink:#1b1b1b;--soft:#666;--line:#ccc;--paper:#fff}\
@@ -44,6 +46,8 @@ impl Report {
         for note in self.features.iter().flat_map(|feature| &feature.notes) {
             html += &format!("<p class=\"soft\">Not plotted: {}.</p>\n", escaped(note));
         }
+        html += "<h2>What the formulas promise</h2>\n";
+        html += &self.promises();
         html + "</body></html>\n"
     }
 
@@ -119,6 +123,42 @@ impl Report {
                 noise is more than a tenth of the error, so that such rows are alike. Layers are <code>--layers</code> or a \
                 coat's <code>layers</code>, samples <code>--msaa</code>; shells that blend are <code>blend = \"blend\"</code> \
                 in a look: as good on still pictures, but they write no depth.</p>\n"
+    }
+
+    /// One row a promise: the worst that was found of ours, and of the formula of older engines.
+    fn promises(&self) -> String {
+        let mut rows: Vec<(&str, &str)> =
+            self.furnace.iter().map(|property| (property.material, property.property)).collect();
+        rows.sort_by_key(|(material, _)| self.furnace.iter().position(|property| property.material == *material));
+        let mut seen = BTreeSet::new();
+        rows.retain(|row| seen.insert(*row));
+        let mut html = String::from(
+            "<p>The worst found over all corners of the parameters and random points between them. An albedo over 1 makes light \
+             out of nothing.</p>\n<div class=\"wide\"><table><tr><th>kind</th><th>promise</th><th>limit</th><th>default</th>\
+             <th>classic = true</th></tr>\n",
+        );
+        for (material, promise) in rows {
+            let of = |classic: bool| {
+                let same = |known: &&Property| (known.material, known.property) == (material, promise);
+                self.furnace.iter().find(|known| same(known) && known.classic == classic)
+            };
+            let worst = |classic| {
+                of(classic).map_or_else(String::new, |known| match known.pass {
+                    true => short(known.worst),
+                    false => format!("<strong>{}</strong>", short(known.worst)),
+                })
+            };
+            let limit =
+                [false, true].into_iter().find_map(|classic| of(classic)?.limit).map_or_else(String::new, short);
+            html += &format!(
+                "<tr><td>{}</td><td>{}</td><td>{limit}</td><td>{}</td><td>{}</td></tr>\n",
+                escaped(material),
+                escaped(promise),
+                worst(false),
+                worst(true)
+            );
+        }
+        html + "</table></div>\n"
     }
 
     fn defaults(&self) -> String {

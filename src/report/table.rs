@@ -22,6 +22,7 @@ impl Report {
                 "fur_vs_one_layer": headline.vs_one_layer.map(rounded),
             },
             "notes": headline.notes,
+            "furnace": self.furnace,
         })
     }
 

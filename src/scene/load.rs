@@ -3,10 +3,12 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
+use super::lint;
+use crate::asset::procedural::{SWATCH_MATERIAL, swatch};
 use crate::asset::{
     self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
 };
-use crate::material::{self, Cloth, Look, Material, Standard};
+use crate::material::{self, Cloth, Look, Material, Standard, presets};
 use crate::math::{Aabb, Hull};
 use crate::scene::{Instance, instances};
 use glam::Vec3;
@@ -60,6 +62,7 @@ impl Scene {
         let materials = material::from_asset(&mut asset, &mut images_of(folder_of(path), options, &mut budget))
             .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
         add_missing_tangents(&mut asset, &materials, &mut budget)?;
+        lint::maps(&mut asset, &materials);
         asset.loaded_bytes = budget.spent_bytes;
         Ok(Self::new(asset, materials))
     }
@@ -68,6 +71,18 @@ impl Scene {
     pub fn gallery() -> Self {
         Self::from_asset(asset::procedural::gallery())
             .unwrap_or_else(|error| unreachable!("the gallery is ours and tested: {error}"))
+    }
+
+    /// A sample of a preset: cloth hangs over a ball of stone, fur grows on a ball.
+    ///
+    /// # Errors
+    /// No preset of that name.
+    pub fn swatch(preset: &str) -> Result<Self, SceneError> {
+        let look = Look::preset(preset, Some(SWATCH_MATERIAL))?;
+        let is_fur = presets().iter().any(|known| known.is_named(preset) && known.kind() == "fur");
+        let mut scene = Self::from_asset(swatch(!is_fur))?;
+        scene.apply(&look, Path::new(""), &LoadOptions::default())?;
+        Ok(scene)
     }
 
     /// Dresses plain data with the materials that it names.
@@ -81,6 +96,7 @@ impl Scene {
         let unlimited = LoadOptions { memory_limit_bytes: u64::MAX, ..LoadOptions::default() };
         let mut budget = Budget::of(&asset, "scene".to_owned(), &unlimited);
         add_missing_tangents(&mut asset, &materials, &mut budget)?;
+        lint::maps(&mut asset, &materials);
         Ok(Self::new(asset, materials))
     }
 
@@ -92,6 +108,7 @@ impl Scene {
         let mut budget = Budget::of(&self.asset, "look".to_owned(), options);
         look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
         add_missing_tangents(&mut self.asset, &self.materials, &mut budget)?;
+        lint::maps(&mut self.asset, &self.materials);
         self.asset.loaded_bytes = budget.spent_bytes;
         let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
         *self = Self::new(asset, materials);

@@ -11,6 +11,7 @@ mod deform;
 mod error;
 mod instance;
 mod light;
+mod lint;
 mod load;
 mod shell;
 

@@ -17,6 +17,7 @@ mod twins;
 
 pub use domain::Domain;
 pub use error::VerifyError;
+pub(crate) use furnace::short;
 pub use furnace::{ALBEDO_LIMIT, Claim, Input, Measure, Property, RANDOM_POINTS, claims, furnace};
 pub use judge::{FunctionReport, Worst};
 pub use twin::{Given, Limit, Rule, Twin};

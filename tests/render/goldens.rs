@@ -1,8 +1,11 @@
 //! Pictures stay as they were when somebody looked at them.
 
+use crate::fuzz::fuzz_balls;
+use crate::glint::glint_balls;
 use crate::golden::{Limits, bless, compare, folder, is_pinned};
 use crate::headless::headless;
-use crate::scenes::{balls, fur_ball, fur_cube, glint_balls};
+use crate::laser::laser_balls;
+use crate::scenes::{balls, fur_ball, fur_cube};
 use std::path::Path;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::gpu::DeviceInfo;
@@ -24,13 +27,15 @@ pub struct Golden {
 const SIZE: [u32; 2] = [256, 160];
 
 /// The same driver gives the same bytes; a step of rounding is left for another processor's vector width.
-const SAME: Limits = Limits { max_difference: 1, outlier_share: 0.0, flip_mean: 1e-3, flip_p99: 0.01 };
+pub const SAME: Limits = Limits { max_difference: 1, outlier_share: 0.0, flip_mean: 1e-3, flip_p99: 0.01 };
 const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mean: 0.01, flip_p99: 0.1 };
-const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
+pub const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
-pub const GOLDENS: [Golden; 5] = [
+pub const GOLDENS: [Golden; 7] = [
     Golden { name: "standard-balls", scene: balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "fuzz-balls", scene: fuzz_balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "laser-balls", scene: laser_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "glint-balls", scene: glint_balls, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-ball", scene: fur_ball, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-cube", scene: fur_cube, camera: first, pinned: SAME, other: HAIRY },

@@ -4,7 +4,7 @@ use crate::stage::{Stage, at, plain};
 use glam::{Quat, Vec3, Vec4};
 use vair::asset::procedural::{cube, plane, sphere};
 use vair::asset::{LightKind, Material, Primitive, Transform};
-use vair::material::{Cloth, Fur, Glint, Length};
+use vair::material::{Fur, Length};
 use vair::scene::Scene;
 
 /// Dielectric balls above, metal balls below, smooth to rough.
@@ -69,34 +69,4 @@ pub fn plain_cube() -> Scene {
     stage.object(cube(0.5), material, at(Vec3::ZERO));
     three_lights(&mut stage);
     stage.scene()
-}
-
-/// Sequins, glitter and lurex.
-pub fn glint_balls() -> Scene {
-    let mut stage = Stage::default();
-    stage.parallel_camera(0.56, Vec3::new(0.0, 0.2, 1.0), Vec3::Y);
-    let flakes = |density, coverage, flake_color: [f32; 3]| Glint {
-        density,
-        coverage,
-        flake_color: Vec3::from(flake_color),
-        color_variation: 0.4,
-        ..Glint::default()
-    };
-    let kinds = [
-        flakes(9.0, 0.85, [0.9, 0.5, 0.6]),
-        flakes(13.0, 0.5, [0.95, 0.93, 0.88]),
-        flakes(18.0, 0.4, [1.0, 0.78, 0.35]),
-    ];
-    let mut dressed = Vec::new();
-    for (column, glint) in kinds.into_iter().enumerate() {
-        let material = stage.material(Material { base_color: Vec4::new(0.05, 0.02, 0.04, 1.0), ..plain() });
-        stage.object(sphere(0.28, 16), material, at(Vec3::X * 0.58 * (column as f32 - 1.0)));
-        dressed.push((material, glint));
-    }
-    three_lights(&mut stage);
-    let mut scene = stage.scene();
-    for (material, glint) in dressed {
-        scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
-    }
-    scene
 }

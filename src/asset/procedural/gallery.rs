@@ -2,13 +2,12 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use glam::{Mat3, Quat, Vec3, Vec4};
+use glam::{Quat, Vec3, Vec4};
 use serde_json::json;
 
+use super::Set;
 use super::mesh::{backdrop, capsule, cube, rounded_cube, sphere, torus, torus_knot};
-use crate::asset::{
-    Asset, AssetScene, Camera, Light, LightKind, Material, Mesh, Node, Primitive, Projection, Transform, Vertices,
-};
+use crate::asset::{Asset, LightKind, Material, Primitive, Projection, Vertices};
 
 /// Name of the gallery's camera: its composition is made for this view at 16:9.
 pub const GALLERY_CAMERA: &str = "hero";
@@ -76,53 +75,6 @@ pub fn lit_quad(material: Material) -> Asset {
     set.asset("lit quad")
 }
 
-/// A scene in the making: every object is a root node.
-#[derive(Default)]
-struct Set(Asset);
-
-impl Set {
-    fn material(&mut self, material: Material) -> usize {
-        self.0.materials.push(material);
-        self.0.materials.len() - 1
-    }
-
-    fn object(&mut self, name: &str, primitive: Primitive, material: usize, translation: Vec3, rotation: Quat) {
-        let primitives = vec![Primitive { material, ..primitive }];
-        self.0.meshes.push(Mesh { name: Some(name.to_owned()), primitives, weights: Vec::new() });
-        let transform = Transform::Trs { translation, rotation, scale: Vec3::ONE };
-        let mesh = Some(self.0.meshes.len() - 1);
-        self.0.nodes.push(Node { name: Some(name.to_owned()), mesh, transform, ..Node::default() });
-    }
-
-    fn light(&mut self, name: &str, kind: LightKind, color: [f32; 3], intensity: f32, from: Vec3, to: Vec3) {
-        self.0.lights.push(Light { name: Some(name.to_owned()), color: Vec3::from(color), intensity, kind });
-        let light = Some(self.0.lights.len() - 1);
-        let transform = looking(from, to);
-        self.0.nodes.push(Node { name: Some(name.to_owned()), light, transform, ..Node::default() });
-    }
-
-    fn camera(&mut self, name: &str, projection: Projection, from: Vec3, to: Vec3) {
-        self.0.cameras.push(Camera { name: Some(name.to_owned()), projection });
-        let camera = Some(self.0.cameras.len() - 1);
-        let transform = looking(from, to);
-        self.0.nodes.push(Node { name: Some(name.to_owned()), camera, transform, ..Node::default() });
-    }
-
-    fn asset(mut self, name: &str) -> Asset {
-        let roots = (0..self.0.nodes.len()).collect();
-        self.0.scenes.push(AssetScene { name: Some(name.to_owned()), roots });
-        self.0
-    }
-}
-
-/// A node whose -Z points from one place to another; the two differ, and not along Y alone.
-fn looking(from: Vec3, to: Vec3) -> Transform {
-    let backwards = (from - to).normalize();
-    let right = Vec3::Y.cross(backwards).normalize();
-    let rotation = Quat::from_mat3(&Mat3::from_cols(right, backwards.cross(right), backwards));
-    Transform::Trs { translation: from, rotation, scale: Vec3::ONE }
-}
-
 fn turned(angle: f32) -> Quat {
     Quat::from_rotation_y(angle)
 }
@@ -137,7 +89,7 @@ fn lying(angle: f32) -> Quat {
     Quat::from_rotation_y(angle) * Quat::from_rotation_z(FRAC_PI_2)
 }
 
-fn surface(name: &str, linear_color: [f32; 3], metallic: f32, roughness: f32) -> Material {
+pub(super) fn surface(name: &str, linear_color: [f32; 3], metallic: f32, roughness: f32) -> Material {
     let base_color = Vec3::from(linear_color).extend(1.0);
     Material { name: Some(name.to_owned()), base_color, metallic, roughness, ..Material::default() }
 }

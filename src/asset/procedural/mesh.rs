@@ -10,12 +10,12 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::asset::{Primitive, Vertices};
 
 /// A point of a parametric surface.
-struct SurfacePoint {
-    position: Vec3,
+pub(super) struct SurfacePoint {
+    pub(super) position: Vec3,
     /// Any length.
-    normal: Vec3,
+    pub(super) normal: Vec3,
     /// Along the first parameter; any length.
-    along_u: Vec3,
+    pub(super) along_u: Vec3,
 }
 
 /// A rectangle in the XZ plane that faces +Y, centred at the origin.
@@ -176,7 +176,11 @@ fn revolved(cells: [u32; 2], repeat: Vec2, profile: impl Fn(f32) -> (Vec2, Vec2)
 }
 
 /// Vertices on a regular grid of parameters in [0, 1]; front faces are on the side of du x dv.
-fn grid([columns, rows]: [u32; 2], uv_repeat: Vec2, surface: impl Fn(f32, f32) -> SurfacePoint) -> Primitive {
+pub(super) fn grid(
+    [columns, rows]: [u32; 2],
+    uv_repeat: Vec2,
+    surface: impl Fn(f32, f32) -> SurfacePoint,
+) -> Primitive {
     let (columns, rows) = (columns.max(1), rows.max(1));
     let mut vertices = Vertices { uv_sets: vec![Vec::new()], ..Vertices::default() };
     let mut indices = Vec::new();

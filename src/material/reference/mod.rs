@@ -5,15 +5,24 @@
 //! All directions are unit vectors in the tangent frame (z = normal) and point away from the surface.
 
 pub mod albedo;
+pub mod anisotropy;
 pub mod classic;
 pub mod color;
 pub mod coverage;
 pub mod direction;
+pub mod film;
+pub mod fuzz;
+pub mod gauze;
 pub mod ggx;
 pub mod glint;
 pub mod hash;
+pub mod hsv;
+pub mod laser;
+pub mod layered;
 pub mod light;
 pub mod lock;
+pub mod satin;
+pub mod sheen;
 pub mod standard;
 pub mod strand;
 pub mod sway;

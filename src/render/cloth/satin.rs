@@ -5,19 +5,31 @@ use crate::material::{Satin, Standard};
 use crate::render::map::Map;
 use crate::render::material::transform;
 use crate::shader::layout::SatinUniforms;
+use glam::Vec3;
 
 pub fn shader(satin: &Satin, _: &Standard) -> ClothShader {
     let uniforms = SatinUniforms {
+        specular_color: satin.specular_color.to_array(),
+        specular_strength: satin.specular_strength,
+        secondary_color: satin.secondary_color.to_array(),
+        secondary_width: satin.secondary_width,
         anisotropy: satin.anisotropy,
+        light_tint: satin.light_tint,
         specular_noise_transform: transform(satin.specular_noise),
         ..Default::default()
     };
+    let shines = |color: Vec3| u32::from(satin.specular_strength > 0.0 && color != Vec3::ZERO);
     ClothShader {
         file: "satin.frag",
         block: "SatinBlock",
         uniforms: bytemuck::bytes_of(&uniforms).to_vec(),
         maps: vec![Map::data("specular_noise", "HAS_SPECULAR_NOISE_MAP", satin.specular_noise)],
-        constants: Vec::new(),
+        constants: vec![
+            ("NARROW", shines(satin.specular_color)),
+            ("SECONDARY", shines(satin.secondary_color)),
+            ("TWO_WAY", u32::from(satin.two_way)),
+            ("CLASSIC", u32::from(satin.classic)),
+        ],
         tables: Vec::new(),
         blends: false,
     }

@@ -4,7 +4,7 @@ use super::claim::{Claim, Input};
 use super::fur::outside;
 use super::quadrature::{direction, over_hemisphere, over_normals, over_reflections, over_sphere};
 use super::{ALBEDO_LIMIT, light};
-use crate::material::reference::classic::{cotton, fur, gauze, satin, velvet};
+use crate::material::reference::classic::{cotton, fur, gauze, laser, satin, velvet};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ fn claim(
 
 /// Everything that is measured of the classic formulas.
 pub fn claims() -> Vec<Claim> {
-    [gauze(), satin(), cotton(), velvet(), fur()].into_iter().flatten().collect()
+    [gauze(), laser(), satin(), cotton(), velvet(), fur()].into_iter().flatten().collect()
 }
 
 /// The highlight of gauze and satin, from four inputs.
@@ -62,6 +62,20 @@ fn gauze() -> Vec<Claim> {
         }),
         claim("gauze", "light from the front beyond a weave's", 1e-3, vec![density], |x| {
             1.0 - gauze::opacity(x[0], 1.0) - gauze::facing_transmittance_of_a_weave(x[0])
+        }),
+    ]
+}
+
+fn laser() -> Vec<Claim> {
+    let span = Input::between("hue_span", laser::HUE_SPAN);
+    let radius = Input::between("radius_px", (10.0, 100.0));
+    vec![
+        // A quarter of a turn between neighbours is the most that keeps neighbouring hues in their order.
+        claim("laser", "turns of hue from a pixel to the next", 0.25, vec![span, radius], |x| {
+            laser::turns_a_pixel(x[0], x[1], 0.5)
+        }),
+        claim("laser", "printed sine, short of the sine by", 1e-3, vec![Input::cosine("cosine_to_eye")], |x| {
+            (1.0 - x[0] * x[0]).sqrt() - laser::printed_sine(x[0])
         }),
     ]
 }

@@ -7,9 +7,13 @@
 mod claim;
 mod classic;
 mod fur;
+mod fuzz;
 mod glint;
+mod laser;
+mod layered;
 mod light;
 mod quadrature;
+mod sheen;
 mod standard;
 
 pub use claim::{Claim, Input, Measure};
@@ -81,7 +85,7 @@ impl fmt::Display for Property {
 }
 
 /// Four places without idle zeros, or a power of ten where that would say nothing.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         return format!("{value:.1e}");
     }
@@ -92,9 +96,21 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
     serializer.collect_map(inputs.iter().copied())
 }
 
-/// Everything that is claimed, ours first.
+/// What is claimed of each family, ours first.
+const FAMILIES: &[fn() -> Vec<Claim>] = &[
+    standard::claims,
+    fur::claims,
+    sheen::claims,
+    fuzz::claims,
+    laser::claims,
+    glint::claims,
+    layered::claims,
+    classic::claims,
+];
+
+/// Everything that is claimed.
 pub fn claims() -> Vec<Claim> {
-    [standard::claims(), fur::claims(), glint::claims(), classic::claims()].into_iter().flatten().collect()
+    FAMILIES.iter().flat_map(|claims| claims()).collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

@@ -8,8 +8,15 @@ use crate::material::reference::ggx;
 /// A cosine that rounding, or a caller, took out of [-1, 1].
 const ANY_COSINE: Domain = Domain::Uniform(-1.0, 1.0, &[-1e30, -1.0, -0.0, 1e-40, 1e-7, 1.0, 1e30]);
 
+const ANY_ANISOTROPY: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, -0.98, -0.0, 1e-40, 1e-8, 0.98, 1.0]);
+
 pub(super) const TWINS: &[Twin] = &[
     Twin::new("ggx_alpha", &[ROUGHNESS], |given| vec![ggx::alpha_of_roughness(given.number())]).limit(2e-5, 0.0),
+    Twin::new("ggx_anisotropic_alpha", &[ROUGHNESS, ANY_ANISOTROPY], |given| {
+        let (ax, ay) = ggx::anisotropic_alpha(given.number(), given.number());
+        vec![ax, ay]
+    })
+    .limit(2e-5, 0.0),
     // Relative alone: the peak of a mirror is 3e5, and what lies beside it is as small.
     Twin::new("ggx_ndf", &[Domain::DirectionOrZero, ALPHA, ALPHA], |given| {
         vec![ggx::ndf(given.vec3(), given.number(), given.number())]

@@ -2,7 +2,7 @@
 
 use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::{Given, Twin};
-use super::albedo::{FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
+use super::albedo::{AVERAGE_ROUNDING, FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use crate::material::reference::ggx;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -33,6 +33,24 @@ impl Surface {
         }
     }
 
+    fn coupled(f0: DVec3, diffuse: DVec3, roughness: f64, mu_v: f64) -> Self {
+        let of_each = |value: &dyn Fn(f64) -> f64| DVec3::from_array(f0.to_array().map(value));
+        let specular_albedo = of_each(&|f0| FIT.compensated_albedo(f0, mu_v, roughness));
+        let average = of_each(&|f0| FIT.average_compensated_albedo(f0, roughness));
+        let (white, _) = FIT.terms(mu_v, roughness);
+        let alpha = ggx::alpha_of_roughness(roughness);
+        Self {
+            f0,
+            roughness,
+            diffuse,
+            alpha_x: alpha,
+            coupled_diffuse: diffuse / PI * (1.0 - specular_albedo) / (1.0 - average).max(DVec3::splat(1e-4)),
+            alpha_y: alpha,
+            specular_compensation: 1.0 + f0 * (1.0 - white) / white.max(1e-3),
+            specular_albedo,
+        }
+    }
+
     fn words(&self) -> Vec<f64> {
         let mut words = Vec::with_capacity(18);
         words.extend(self.f0.to_array());
@@ -51,26 +69,27 @@ impl Surface {
 const COMPENSATION: Domain = Domain::Uniform(1.0, 3.3, &[1.0, 3.3]);
 
 pub(super) const TWINS: &[Twin] = &[
+    Twin::new("standard_coupled", &[UNIT, UNIT, ROUGHNESS, COSINE], |given| {
+        let (f0, diffuse, roughness, mu_v) = (given.vec3(), given.vec3(), given.number(), given.number());
+        Surface::coupled(f0, diffuse, roughness, mu_v).words()
+    })
+    .limit(2e-5, WHITE_ROUNDING + FRESNEL_ROUNDING)
+    // Under a white mirror next to nothing is left for the diffuse lobe: the quotient of what is left of both albedos
+    // carries their errors, and is multiplied by as little again.
+    .allowance(|given| {
+        let (f0, diffuse, roughness, _) = (given.vec3(), given.vec3(), given.number(), given.number());
+        let quotient = |at: usize| {
+            let left = (1.0 - FIT.average_compensated_albedo(f0[at], roughness)).max(1e-4);
+            diffuse[at] / PI * (WHITE_ROUNDING + FRESNEL_ROUNDING + AVERAGE_ROUNDING) / left
+        };
+        let mut allowed = vec![0.0; 18];
+        (0..3).for_each(|at| allowed[8 + at] = quotient(at));
+        allowed
+    }),
     Twin::new("standard_surface", &[UNIT, UNIT, ROUGHNESS, COSINE], |given| {
         let (base_color, metallic, roughness, mu_v) = (given.vec3(), given.number(), given.number(), given.number());
         let f0 = DVec3::splat(0.04).lerp(base_color, metallic);
-        let diffuse = base_color * (1.0 - metallic);
-        let of_each = |value: &dyn Fn(f64) -> f64| DVec3::from_array(f0.to_array().map(value));
-        let specular_albedo = of_each(&|f0| FIT.compensated_albedo(f0, mu_v, roughness));
-        let average = of_each(&|f0| FIT.average_compensated_albedo(f0, roughness));
-        let (white, _) = FIT.terms(mu_v, roughness);
-        let alpha = ggx::alpha_of_roughness(roughness);
-        let surface = Surface {
-            f0,
-            roughness,
-            diffuse,
-            alpha_x: alpha,
-            coupled_diffuse: diffuse / PI * (1.0 - specular_albedo) / (1.0 - average).max(DVec3::splat(1e-4)),
-            alpha_y: alpha,
-            specular_compensation: 1.0 + f0 * (1.0 - white) / white.max(1e-3),
-            specular_albedo,
-        };
-        surface.words()
+        Surface::coupled(f0, base_color * (1.0 - metallic), roughness, mu_v).words()
     })
     // Errors of E1 and Q add up in the albedo, the largest of what follows from them.
     .limit(2e-5, WHITE_ROUNDING + FRESNEL_ROUNDING),

@@ -7,5 +7,6 @@
 pub mod cotton;
 pub mod fur;
 pub mod gauze;
+pub mod laser;
 pub mod satin;
 pub mod velvet;

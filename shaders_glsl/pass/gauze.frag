@@ -1,0 +1,157 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Gauze: organza, chiffon, tulle. Blends: what it writes is premultiplied, and its holes show what lies behind.
+#define CLOTH
+#include "surface.glsl"
+#include "gauze_material.glsl"
+#include "anisotropy.glsl"
+#include "satin.glsl"
+#include "gauze.glsl"
+
+layout(constant_id = 20) const bool HAS_MESH_MAP = false;
+layout(constant_id = 21) const bool HAS_SPECULAR_NOISE_MAP = false;
+layout(constant_id = 22) const bool HAS_THREAD_PATTERN_MAP = false;
+layout(constant_id = 23) const bool CROSSED = false;   // a grid of round threads, otherwise matted yarn
+layout(constant_id = 24) const bool HIGHLIGHT = false; // it is not black
+layout(constant_id = 25) const bool CLASSIC = false;
+
+layout(set = 1, binding = 20, std140) uniform GauzeBlock { GauzeUniforms gauze; };
+#ifdef MAPS
+layout(set = 1, binding = 21) uniform texture2D mesh_map;
+layout(set = 1, binding = 22) uniform sampler mesh_sampler;
+layout(set = 1, binding = 23) uniform texture2D specular_noise_map;
+layout(set = 1, binding = 24) uniform sampler specular_noise_sampler;
+layout(set = 1, binding = 25) uniform texture2D thread_pattern_map;
+layout(set = 1, binding = 26) uniform sampler thread_pattern_sampler;
+#endif
+
+// What the maps say.
+struct Threads {
+    float mesh;   // share of threads, the rest are holes
+    float noise;  // local strength of the highlight
+    float turned; // share of the threads that lie the other way
+};
+
+Threads threads() {
+    Threads t;
+    t.mesh = 1.0;
+    t.noise = 1.0;
+    t.turned = 0.0;
+#ifdef MAPS
+    if (HAS_MESH_MAP) {
+        vec2 uv = uv_transformed(gauze.mesh_transform, uv_sets.xy, uv_sets.zw);
+        t.mesh = texture(sampler2D(mesh_map, mesh_sampler), uv).r;
+    }
+    if (HAS_SPECULAR_NOISE_MAP) {
+        vec2 uv = uv_transformed(gauze.specular_noise_transform, uv_sets.xy, uv_sets.zw);
+        float texel = texture(sampler2D(specular_noise_map, specular_noise_sampler), uv).r;
+        t.noise = CLASSIC ? texel : satin_noise(texel);
+    }
+    if (HAS_THREAD_PATTERN_MAP) {
+        vec2 uv = uv_transformed(gauze.thread_pattern_transform, uv_sets.xy, uv_sets.zw);
+        float texel = texture(sampler2D(thread_pattern_map, thread_pattern_sampler), uv).r;
+        // Wide enough that a pattern too fine for the pixel, seen as its mean, becomes a share of both.
+        t.turned = clamp((texel - gauze.thread_threshold) * 4.0 + 0.5, 0.0, 1.0);
+    }
+#endif
+    return t;
+}
+
+// Into the frame of the threads that lie the other way.
+vec3 turned(vec3 w) {
+    vec2 turn = gauze.thread_turn;
+    return vec3(turn.x * w.x + turn.y * w.y, turn.x * w.y - turn.y * w.x, w.z);
+}
+
+float depth_along(vec3 w) {
+    return CROSSED ? gauze_crossed_depth(gauze.weave, w) : gauze_matted_depth(gauze.weave, w.z);
+}
+
+// Premultiplied by the opacity along the view, before the mesh and the transmittance.
+vec3 reflected(SurfaceFragment f, Threads t, float depth) {
+    vec3 v = f.eye_in_tangent;
+    vec3 diffuse = f.base_color * (1.0 - f.metallic);
+    AnisotropicLobe warp;
+    AnisotropicLobe weft;
+    vec3 albedo = vec3(0.0);
+    vec3 average = vec3(0.0);
+    if (HIGHLIGHT) {
+        vec2 alpha = ggx_anisotropic_alpha(f.roughness, gauze.anisotropy);
+        vec3 f0 = mix(satin_f0(gauze.specular * t.noise, 1.0), f.base_color, f.metallic);
+        float f90 = satin_f90(f0);
+        warp = anisotropic_lobe(v, alpha, f0, f90);
+        albedo = anisotropic_lobe_albedo(warp, v);
+        average = anisotropic_lobe_average_albedo(warp);
+        if (HAS_THREAD_PATTERN_MAP) {
+            weft = anisotropic_lobe(turned(v), alpha, f0, f90);
+            albedo = mix(albedo, anisotropic_lobe_albedo(weft, turned(v)), t.turned);
+        }
+    }
+    GauzeSurface surface = gauze_surface(diffuse, depth, gauze.mean_opacity, albedo, average);
+    vec3 sum = frame.ambient_radiance * f.occlusion * gauze_ambient(surface, albedo);
+    for (uint index = 0u; index < frame.light_count; ++index) {
+        LightSample light = light_sample(lights[index], position_in_world);
+        vec3 l = light.direction_in_world * f.world_from_tangent;
+        vec3 mirrored = vec3(l.xy, abs(l.z));
+        float depth_l = depth_along(mirrored);
+        vec3 albedo_l = vec3(0.0);
+        vec3 bsdf = vec3(0.0);
+        if (HIGHLIGHT) {
+            albedo_l = anisotropic_lobe_albedo(warp, mirrored);
+            vec3 lobe = anisotropic_lobe_times_cosine(warp, v, l);
+            if (HAS_THREAD_PATTERN_MAP) {
+                albedo_l = mix(albedo_l, anisotropic_lobe_albedo(weft, turned(mirrored)), t.turned);
+                lobe = mix(lobe, anisotropic_lobe_times_cosine(weft, turned(v), turned(l)), t.turned);
+            }
+            bsdf = lobe * gauze_met_by_both(surface.opacity, gauze_opacity(depth_l));
+        }
+        bsdf += gauze_diffuse_times_cosine(surface, depth_l, l.z, albedo_l);
+        sum += light.irradiance * bsdf;
+    }
+    return sum;
+}
+
+// The highlight of classic satin under the scatter colour, on Lambert; times the opacity, as older engines blend.
+vec3 classic_lobe(SurfaceFragment f, Threads t, vec2 alpha, vec3 v, vec3 l) {
+    vec3 f0 = mix(vec3(0.04), f.base_color, f.metallic);
+    vec3 h = ggx_half_vector(v, l);
+    float lobe = ggx_ndf(h, alpha.x, alpha.y) * ggx_masking_shadowing_times_cosine(v, l, alpha.x, alpha.y);
+    return schlick(f0, dot(v, h)) * (lobe * alpha.x * alpha.y * 25.0 * t.noise) * gauze.specular;
+}
+
+vec3 classic_reflected(SurfaceFragment f, Threads t, float opacity) {
+    bool other = t.turned > 0.5;
+    vec3 v = other ? turned(f.eye_in_tangent) : f.eye_in_tangent;
+    vec2 alpha = satin_classic_alpha(f.roughness, gauze.anisotropy);
+    vec3 diffuse = f.base_color * (1.0 - f.metallic);
+    vec3 sum = frame.ambient_radiance * f.occlusion * diffuse;
+    for (uint index = 0u; index < frame.light_count; ++index) {
+        LightSample light = light_sample(lights[index], position_in_world);
+        vec3 l = light.direction_in_world * f.world_from_tangent;
+        if (l.z <= 0.0) { continue; }
+        vec3 brdf = diffuse * (0.318309886 * l.z);
+        if (HIGHLIGHT) { brdf += classic_lobe(f, t, alpha, v, other ? turned(l) : l); }
+        sum += light.irradiance * brdf;
+    }
+    return sum * opacity;
+}
+
+void main() {
+    vec4 color = surface_color();
+    int mask = surface_mask(color.a);
+    SurfaceFragment f = surface_fragment(color);
+    Threads t = threads();
+    float cover = t.mesh * gauze.cover * surface_opacity(color.a);
+    float opacity;
+    vec3 sum;
+    if (CLASSIC) {
+        opacity = gauze_classic_opacity(gauze.weave, f.eye_in_tangent.z);
+        sum = classic_reflected(f, t, opacity);
+    } else {
+        float depth = depth_along(f.eye_in_tangent);
+        opacity = gauze_opacity(depth);
+        sum = reflected(f, t, depth);
+    }
+    radiance = vec4(min((sum + f.emissive * opacity) * cover, vec3(RADIANCE_LIMIT)), opacity * cover);
+    surface_cover(mask);
+}

@@ -1,0 +1,84 @@
+//! Twin of `anisotropy.glsl`: an anisotropic GGX lobe with its compensation, and the fit of its directional albedo.
+//!
+//! Turquin 2019, "Practical multiple scattering compensation for microfacet models". The mapping onto the isotropic fits
+//! is our own; `tests/anisotropy.rs` holds it to quadrature.
+
+use super::albedo::Fit;
+use super::ggx;
+use glam::DVec3;
+
+/// One lobe; its colour channels differ in F0 alone.
+#[derive(Debug, Clone, Copy)]
+pub struct Lobe {
+    /// Reflectance at normal incidence, [0, 1].
+    pub f0: DVec3,
+    /// Reflectance at grazing incidence, from the largest of `f0` to 1.
+    pub f90: f64,
+    /// Widths along tangent and bitangent, [1e-3, 1].
+    pub alpha: (f64, f64),
+}
+
+/// The isotropic width that loses as much seen from the front, and how anisotropic the widths are, in [0, 1].
+pub fn mean_width((ax, ay): (f64, f64)) -> (f64, f64) {
+    let share = (ax * ax - ay * ay).abs() / (ax * ax + ay * ay);
+    let mean = ((ax * ax + ay * ay) / 2.0).sqrt();
+    (mean * (1.0 + share * share * (0.08 - 0.16 * mean)), share)
+}
+
+/// `(E1, Q)` towards `w`, `w.z` in [0, 1]: the albedo with F = 1, and Schlick's share of it.
+pub fn albedo_terms(fit: &Fit, w: DVec3, (ax, ay): (f64, f64)) -> (f64, f64) {
+    let (mean, share) = mean_width((ax, ay));
+    // Slopes in units of the mean square width.
+    let slope = (ax * w.x).hypot(ay * w.y) / ((ax * ax + ay * ay) / 2.0).sqrt();
+    let (white, _) = fit.terms(w.z / w.z.hypot(slope).max(1e-15), mean.sqrt());
+    let sine = w.x.hypot(w.y).max(1e-6);
+    let (along, across) = ((ax * w.x).hypot(ay * w.y) / sine, (ay * w.x).hypot(ax * w.y) / sine);
+    let lean = (across * across - along * along).max(0.0) / across.max(1e-6);
+    let (_, fresnel) = fit.terms(w.z / (1.0 + 0.15 * lean).sqrt(), (along / (1.0 + 3.6 * lean).sqrt()).sqrt());
+    ((white * (1.0 + 0.04 * share)).min(1.0), fresnel)
+}
+
+/// Cosine-weighted averages of (E1 Q, E1, Q) over the hemisphere.
+pub fn average_terms(fit: &Fit, alpha: (f64, f64)) -> [f64; 3] {
+    fit.averages(mean_width(alpha).0.sqrt())
+}
+
+impl Lobe {
+    /// Turquin's factor, seen from `v`: `1 + F0 (1 - E1) / E1`.
+    pub fn compensation(&self, fit: &Fit, v: DVec3) -> DVec3 {
+        let (white, _) = albedo_terms(fit, v, self.alpha);
+        1.0 + self.f0 * (1.0 - white) / white.max(1e-3)
+    }
+
+    /// What GGX scatters once, times the cosine of `l`; 0 where a direction is at or below the horizon.
+    pub fn single_scattering_times_cosine(&self, v: DVec3, l: DVec3) -> DVec3 {
+        if v.z <= 0.0 || l.z <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let (ax, ay) = self.alpha;
+        let h = ggx::half_vector(v, l);
+        // Between F0 and F90 as between F0 and 1.
+        let weight = ggx::schlick(0.0, v.dot(h));
+        self.f0.lerp(DVec3::splat(self.f90), weight)
+            * (ggx::ndf(h, ax, ay) * ggx::masking_shadowing_times_cosine(v, l, ax, ay))
+    }
+
+    /// The lobe, times the cosine of `l`.
+    pub fn times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3) -> DVec3 {
+        self.compensation(fit, v) * self.single_scattering_times_cosine(v, l)
+    }
+
+    /// Its albedo towards `w`, by the fit.
+    pub fn albedo(&self, fit: &Fit, w: DVec3) -> DVec3 {
+        let (white, fresnel) = albedo_terms(fit, w, self.alpha);
+        self.f0.lerp(DVec3::splat(self.f90), fresnel) * self.f0.lerp(DVec3::ONE, white)
+    }
+
+    /// The cosine-weighted average of the albedo.
+    pub fn average_albedo(&self, fit: &Fit) -> DVec3 {
+        let [both, white, fresnel] = average_terms(fit, self.alpha);
+        // The product of the two factors of `albedo`, averaged term by term.
+        let (f0, rest) = (self.f0, self.f90 - self.f0);
+        f0 * f0 + f0 * (1.0 - f0) * white + rest * f0 * fresnel + rest * (1.0 - f0) * both
+    }
+}

@@ -1,0 +1,48 @@
+//! Maps that a file or look asks for and that cannot do what it expects: a picture is shown, and a warning says why it
+//! lacks something.
+
+use crate::asset::{Asset, Image, TextureRef};
+use crate::material::{Family, Material};
+
+/// Adds a warning, once, for each map that its mesh has no texture coordinates for, and for each normal map that is grey.
+pub(super) fn maps(asset: &mut Asset, materials: &[Material]) {
+    let mut warnings = Vec::new();
+    for (m, mesh) in asset.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let material = &materials[primitive.material];
+            // The maps of a coat are projected onto what has no coordinates.
+            let lacking = textures(material).filter(|(_, map)| map.uv_set as usize >= primitive.vertices.uv_sets.len());
+            let names: Vec<_> = lacking.map(|(name, _)| format!("`{name}`")).collect();
+            if !names.is_empty() {
+                let (names, material) = (names.join(", "), &material.name);
+                warnings.push(format!(
+                    "meshes[{m}].primitives[{p}]: has no texture coordinates for {names} of material `{material}`, which are \
+                     not shown; unwrap the mesh"
+                ));
+            }
+        }
+    }
+    for material in materials {
+        for (name, map) in textures(material).filter(|(name, _)| name.ends_with("normal_texture")) {
+            let image = &asset.images[asset.textures[map.texture].image];
+            if is_grey(image) {
+                warnings.push(format!(
+                    "material `{}`: `{name}` is the grey image `{}`, perhaps heights; a normal map is mostly blue",
+                    material.name, image.name
+                ));
+            }
+        }
+    }
+    warnings.retain(|warning| !asset.warnings.contains(warning));
+    asset.warnings.extend(warnings);
+}
+
+/// Those of the surface and its cloth.
+fn textures(material: &Material) -> impl Iterator<Item = (&'static str, TextureRef)> {
+    let cloth = material.cloth.as_ref().map(|cloth| cloth.textures()).unwrap_or_default();
+    material.standard.textures().into_iter().chain(cloth)
+}
+
+fn is_grey(image: &Image) -> bool {
+    image.rgba.chunks_exact(4).all(|texel| texel[0] == texel[1] && texel[1] == texel[2])
+}

@@ -1,0 +1,36 @@
+//! Judges `satin.glsl`.
+
+use super::super::domain::{Domain, ROUGHNESS, UNIT};
+use super::super::twin::Twin;
+use crate::material::reference::classic::satin as classic;
+use crate::material::reference::satin;
+use glam::DVec3;
+
+/// 0.04 times the largest strength.
+const REFLECTANCE: Domain = Domain::Uniform(0.0, 1.2, &[0.0, 1e-40, 1e-8, 0.04, 1.0, 1.2]);
+const STRENGTH: Domain = Domain::Uniform(0.0, 30.0, &[0.0, 1e-40, 1.0, 30.0]);
+const ANISOTROPY: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, -0.0, 1e-8, 1.0]);
+/// Of a light: from none to the largest that stays finite.
+const LIGHT: Domain = Domain::Log(1e-6, 1e6, &[0.0, 1e-40, 1e-8, 1.0, 1e38]);
+
+pub(super) const TWINS: &[Twin] = &[
+    Twin::new("satin_largest", &[UNIT], |given| vec![given.vec3().max_element()]),
+    Twin::new("satin_reflectance", &[UNIT, STRENGTH, UNIT], |given| {
+        satin::reflectance(given.vec3(), given.number(), given.number()).to_array().to_vec()
+    }),
+    Twin::new("satin_share", &[REFLECTANCE, REFLECTANCE], |given| vec![satin::share(given.vec3(), given.vec3())])
+        // Below the smallest normal number nothing is promised: such reflectances are none.
+        .used(|share| share.iter_mut().for_each(|share| *share = if share.is_finite() { *share } else { 0.0 })),
+    Twin::new("satin_f0", &[REFLECTANCE, UNIT], |given| satin::f0(given.vec3(), given.number()).to_array().to_vec()),
+    Twin::new("satin_f90", &[UNIT], |given| vec![satin::f90(given.vec3())]),
+    Twin::new("satin_noise", &[UNIT], |given| vec![0.5 + 0.5 * given.number()]),
+    Twin::new("satin_classic_alpha", &[ROUGHNESS, ANISOTROPY], |given| {
+        let (ax, ay) = classic::widths(given.number(), given.number());
+        vec![ax.max(1e-3), ay.max(1e-3)]
+    }),
+    Twin::new("satin_classic_light", &[UNIT, LIGHT, UNIT], |given| {
+        let (tint, light, share) = (given.vec3(), given.vec3(), given.number());
+        let gray = light.dot(DVec3::new(0.2125, 0.7154, 0.0721));
+        (tint * gray).lerp(light, share).to_array().to_vec()
+    }),
+];
