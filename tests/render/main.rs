@@ -29,6 +29,7 @@ mod fuzz;
 mod glint;
 mod goldens;
 mod laser;
+mod layered;
 mod lean;
 mod light;
 mod plans;
