@@ -4,12 +4,15 @@
 //! Measured on the double-precision twins, which the device is checked against. The formulas of older engines are
 //! measured beside them, and shown as what they are.
 
+mod anisotropy;
 mod claim;
 mod classic;
 mod fur;
+mod gauze;
 mod laser;
 mod light;
 mod quadrature;
+mod satin;
 mod standard;
 
 pub use claim::{Claim, Input, Measure};
@@ -94,7 +97,18 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 
 /// Everything that is claimed, ours first.
 pub fn claims() -> Vec<Claim> {
-    [standard::claims(), fur::claims(), laser::claims(), classic::claims()].into_iter().flatten().collect()
+    [
+        standard::claims(),
+        fur::claims(),
+        anisotropy::claims(),
+        gauze::claims(),
+        laser::claims(),
+        satin::claims(),
+        classic::claims(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas
