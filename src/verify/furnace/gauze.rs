@@ -44,8 +44,9 @@ pub fn claims() -> Vec<Claim> {
         at(Input::cosine("cosine_to_eye"), &[1e-3, 0.05, 0.3, 1.0]),
         at(Input::turn("along_to_eye_deg"), &[0.0, 45.0]),
     ];
-    let lit =
-        [inputs.clone(), vec![Input::signed_cosine("cosine_to_light"), Input::turn("along_to_light_deg")]].concat();
+    // Light in the plane of the sheet is on neither side.
+    let to_light = at(Input::signed_cosine("cosine_to_light"), &[-1.0, -0.3, -0.01, 0.05, 0.5, 1.0]);
+    let lit = [inputs.clone(), vec![to_light, Input::turn("along_to_light_deg")]].concat();
     let albedo = |property, weave: fn(f64) -> Weave| Claim {
         material: "gauze",
         property,
@@ -74,9 +75,9 @@ pub fn claims() -> Vec<Claim> {
                 let gauze = gauze(x, Weave::crossed);
                 // Seen from behind, the frame is turned over with the eye.
                 let side = if l.z < 0.0 { DVec3::new(1.0, 1.0, -1.0) } else { DVec3::ONE };
-                let mean = gauze.weave.mean_opacity();
-                let there = gauze.diffuse_bsdf(&FIT, mean, v, l).x;
-                let back = gauze.diffuse_bsdf(&FIT, mean, l * side, v * side).x;
+                // The mean is a factor of both.
+                let there = gauze.diffuse_bsdf(&FIT, 1.0, v, l).x;
+                let back = gauze.diffuse_bsdf(&FIT, 1.0, l * side, v * side).x;
                 (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE)
             }),
             ..albedo("", Weave::crossed)
