@@ -114,4 +114,14 @@ vec3 standard_average_compensated_albedo(vec3 f0, vec3 terms) {
     return terms.x + f0 * ((terms.y + terms.z - 2.0 * terms.x) + f0 * (1.0 - terms.y - terms.z + terms.x));
 }
 
+// The same between f0 and f90, the reflectance at grazing incidence, [0, 1], not below f0.
+vec3 compensated_albedo(vec3 f0, float f90, vec2 terms) {
+    return (f0 + (f90 - f0) * terms.y) * (terms.x + f0 * (1.0 - terms.x));
+}
+
+// Its cosine-weighted average.
+vec3 average_compensated_albedo(vec3 f0, float f90, vec3 terms) {
+    return f0 * (terms.y + f0 * (1.0 - terms.y)) + (f90 - f0) * (terms.x + f0 * (terms.z - terms.x));
+}
+
 #endif

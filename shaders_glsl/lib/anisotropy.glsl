@@ -80,15 +80,13 @@ vec3 anisotropic_lobe_times_cosine(AnisotropicLobe lobe, vec3 v, vec3 l) {
 // Albedo towards w, in [0, 1]: share of light from everywhere that the lobe sends there, and of light from there that it
 // takes from what lies below.
 vec3 anisotropic_lobe_albedo(AnisotropicLobe lobe, vec3 w) {
-    vec2 terms = anisotropic_albedo_terms(w, vec2(lobe.alpha_x, lobe.alpha_y));
-    return (lobe.f0 + (lobe.f90 - lobe.f0) * terms.y) * (terms.x + lobe.f0 * (1.0 - terms.x));
+    return compensated_albedo(lobe.f0, lobe.f90, anisotropic_albedo_terms(w, vec2(lobe.alpha_x, lobe.alpha_y)));
 }
 
 // Its cosine-weighted average.
 vec3 anisotropic_lobe_average_albedo(AnisotropicLobe lobe) {
     vec3 terms = anisotropic_average_terms(vec2(lobe.alpha_x, lobe.alpha_y));
-    vec3 rest = lobe.f90 - lobe.f0;
-    return lobe.f0 * (terms.y + lobe.f0 * (1.0 - terms.y)) + rest * (terms.x + lobe.f0 * (terms.z - terms.x));
+    return average_compensated_albedo(lobe.f0, lobe.f90, terms);
 }
 
 #endif

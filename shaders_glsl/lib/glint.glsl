@@ -58,6 +58,21 @@ struct GlintTiles {
     uvec2 seed_3;
 };
 
+// A flake that a pixel may show as a disc.
+struct GlintDisc {
+    vec4 tinted; // tint and weight, as of glint_flake
+    vec2 square; // its normal
+};
+
+// Those around a pixel.
+struct GlintDiscs {
+    GlintDisc first;
+    GlintDisc right;
+    GlintDisc up;
+    GlintDisc both;
+    float apart; // how well the pixel tells them apart, [0, 1]
+};
+
 // How much of the single flakes of two levels is seen.
 struct GlintLevels {
     uint first;
@@ -107,6 +122,17 @@ uint glint_shuffle(uint number, uint fineness, uint key) {
     shuffled = (shuffled * 0x85ebca6bu + (key >> 16u)) & mask;
     shuffled ^= shuffled >> fineness;
     return (shuffled * 0xc2b2ae35u) & mask;
+}
+
+// Which number glint_shuffle made this of: the same steps backwards, with the inverses of the factors modulo 2^32.
+uint glint_unshuffle(uint shuffled, uint fineness, uint key) {
+    uint mask = (1u << (2u * fineness)) - 1u;
+    uint number = (shuffled * 0x7ed1b41du) & mask;
+    number ^= number >> fineness;
+    number = ((number - (key >> 16u)) * 0xa5cb9243u) & mask;
+    number ^= number >> fineness;
+    number = ((number - (key >> 8u)) * 0xe8b2f51u) & mask;
+    return (number ^ key) & mask;
 }
 
 // The plane of the lattice for a surface with that normal in the rest pose: 0 yz, 1 zx, 2 xy, the one that it faces most.
@@ -253,10 +279,69 @@ float glint_lobe(GlintFlakes flakes, float spread) {
     return sqrt(flakes.lobe * flakes.lobe + min(spread, 8.0) * cells * cells);
 }
 
-// The factor on the smooth lobe in a pixel: 1 times the mean tint in the mean. Where the half vector turns within the
-// pixel by more than a lobe, as many lobes are averaged, as flakes of larger tiles are.
-vec3 glint_flash(GlintFlakes flakes, GlintFootprint footprint, GlintLevels levels, GlintTiles near, GlintTiles far, vec2 square, float spread) {
-    float lobe = glint_lobe(flakes, spread);
+// log2 of the cells along the square of normals when a lobe of that radius, in cells of the finest square, is wider than
+// half a cell: so few cells that it fits in one. Tiles shrink with it, and still hold one flake that can flash.
+uint glint_fineness(GlintFlakes flakes, float lobe) {
+    float finer = max(ceil(log2(lobe) + 0.9999), 0.0);
+    return flakes.fineness - min(uint(finer), flakes.fineness);
+}
+
+// One flake that a pixel may show as a disc, with its normal.
+GlintDisc glint_disc(GlintFlakes flakes, GlintFootprint footprint, ivec2 place, uint chart) {
+    GlintDisc disc;
+    disc.tinted = glint_flake(flakes, footprint, place, 0u, chart * 16u);
+    uvec2 seed = glint_seed(place >> flakes.fineness, chart * 16u);
+    uint last = (1u << flakes.fineness) - 1u;
+    uvec2 in_tile = uvec2(place) & last;
+    uint number = glint_unshuffle(in_tile.x | in_tile.y << flakes.fineness, flakes.fineness, seed.y);
+    vec2 cell = vec2(number & last, number >> flakes.fineness) + 0.5;
+    vec2 moved = cell / float(last + 1u) - vec2(seed.x >> 16u, seed.x & 0xffffu) * (1.0 / 65536.0);
+    disc.square = 2.0 * (moved - floor(moved + 0.5));
+    return disc;
+}
+
+// All of them.
+GlintDiscs glint_discs(GlintFlakes flakes, GlintFootprint footprint, uint chart) {
+    GlintDiscs discs;
+    discs.apart = clamp((0.45 - footprint.blur) * 4.0, 0.0, 1.0);
+    ivec2 first = footprint.cell + ivec2(floor(footprint.within - 0.5));
+    discs.first = glint_disc(flakes, footprint, first, chart);
+    discs.right = glint_disc(flakes, footprint, first + ivec2(1, 0), chart);
+    discs.up = glint_disc(flakes, footprint, first + ivec2(0, 1), chart);
+    discs.both = glint_disc(flakes, footprint, first + ivec2(1, 1), chart);
+    return discs;
+}
+
+// Tint and share of area of the flakes in a pixel over their mean share: 1 in the mean. Where the pixel no longer tells
+// discs apart, just that. Where soft edges meet they cover no more than all, 1 over the discs' share of a rhombus.
+vec4 glint_cover(GlintFlakes flakes, GlintDiscs discs) {
+    vec4 mean = vec4(vec3(glint_mean_tint(flakes)), 1.0);
+    vec4 sum = discs.first.tinted + discs.right.tinted + discs.up.tinted + discs.both.tinted;
+    float covered = 3.62759873 * flakes.radius * flakes.radius * sum.w; // pi / sin 60 degrees
+    return mix(mean, sum / max(covered, 1.0), discs.apart);
+}
+
+// Tint times weight of a disc whose lobe holds the half vector; `lobe` in cells, at most half the square.
+vec3 glint_disc_flash(GlintFlakes flakes, GlintDisc disc, vec2 square, float lobe) {
+    float cells = float(1u << flakes.fineness);
+    vec2 offset = 0.5 * (square - disc.square);
+    offset = (offset - floor(offset + 0.5)) * cells;
+    float u = dot(offset, offset) / (lobe * lobe);
+    float left = max(1.0 - u, 0.0);
+    return disc.tinted.rgb * (3.0 * 0.318309886 * cells * cells / (lobe * lobe) * left * left);
+}
+
+// The factor on the smooth lobe in a pixel that tells discs apart. Lobes wider than all normals make no difference.
+vec3 glint_discs_flash(GlintFlakes flakes, GlintDiscs discs, vec2 square, float lobe) {
+    float seen = min(lobe, 0.5 * float(1u << flakes.fineness));
+    vec3 sum = glint_disc_flash(flakes, discs.first, square, seen) + glint_disc_flash(flakes, discs.right, square, seen)
+        + glint_disc_flash(flakes, discs.up, square, seen) + glint_disc_flash(flakes, discs.both, square, seen);
+    return mix(vec3(glint_mean_tint(flakes)), sum, seen / lobe);
+}
+
+// The factor on the smooth lobe in a pixel that sees levels of tiles: 1 times the mean tint in the mean. Lobes wider than
+// all normals make no difference.
+vec3 glint_tiles_flash(GlintFlakes flakes, GlintFootprint footprint, GlintLevels levels, GlintTiles near, GlintTiles far, vec2 square, float lobe) {
     float seen = min(lobe, 0.5);
     float share = seen / lobe;
     vec3 flash = vec3(glint_mean_tint(flakes) * (1.0 - share * (levels.near + levels.far)));
@@ -267,24 +352,6 @@ vec3 glint_flash(GlintFlakes flakes, GlintFootprint footprint, GlintLevels level
         flash += share * levels.far * glint_level(flakes, footprint, far, square, seen);
     }
     return flash;
-}
-
-// Share of area and tint of the discs at a pixel over their mean share: 1 in the mean. Where the pixel no longer tells
-// them apart, just that.
-vec4 glint_discs(GlintFlakes flakes, GlintFootprint footprint, uint chart) {
-    vec4 mean = vec4(vec3(glint_mean_tint(flakes)), 1.0);
-    float apart = clamp((0.45 - footprint.blur) * 4.0, 0.0, 1.0);
-    if (apart <= 0.0) {
-        return mean;
-    }
-    vec2 corner = floor(footprint.within - 0.5);
-    ivec2 first = footprint.cell + ivec2(corner);
-    uint stream = chart * 16u;
-    vec4 sum = glint_flake(flakes, footprint, first, 0u, stream)
-        + glint_flake(flakes, footprint, first + ivec2(1, 0), 0u, stream)
-        + glint_flake(flakes, footprint, first + ivec2(0, 1), 0u, stream)
-        + glint_flake(flakes, footprint, first + ivec2(1, 1), 0u, stream);
-    return mix(mean, sum, apart);
 }
 
 // The smooth lobe times the cosine of l: GGX of flakes of that colour with the compensation of standard.glsl.

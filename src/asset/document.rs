@@ -298,6 +298,9 @@ pub(super) struct MaterialExtensions {
     pub(super) emissive_strength: Option<EmissiveStrength>,
     #[serde(rename = "VAIR_material")]
     pub(super) vair: Option<Value>,
+    /// Those that `material_extension` reads, and any that nobody does.
+    #[serde(flatten)]
+    pub(super) further: BTreeMap<String, Value>,
 }
 
 #[derive(Deserialize)]

@@ -1,22 +1,17 @@
-//! Which extensions vair reads, which it shows later, which it refuses.
+//! Which extensions vair reads and which it refuses.
 
 use super::AssetError;
 use super::context::Context;
 use super::document::Document;
 
 /// Read and honoured.
-const READ: [&str; 7] = [
+const READ: [&str; 16] = [
     "KHR_texture_transform",
     "KHR_mesh_quantization",
     "KHR_lights_punctual",
     "KHR_materials_unlit",
     "KHR_materials_emissive_strength",
     "KHR_materials_variants",
-    "VAIR_material",
-];
-
-/// Materials that leave the geometry alone: the file is right without them, only plainer.
-const SHOWN_LATER: [&str; 9] = [
     "KHR_materials_sheen",
     "KHR_materials_anisotropy",
     "KHR_materials_iridescence",
@@ -26,22 +21,21 @@ const SHOWN_LATER: [&str; 9] = [
     "KHR_materials_transmission",
     "KHR_materials_volume",
     "KHR_materials_diffuse_transmission",
+    "VAIR_material",
 ];
 
-/// Warns once for each extension that is not shown.
+/// Warns once for each extension that is not read.
 ///
 /// # Errors
-/// A required extension that is neither read nor merely a plainer material.
+/// A required extension that is not read.
 pub(super) fn check(context: &Context, document: &Document) -> Result<(), AssetError> {
     for (i, name) in document.extensions_required.iter().enumerate() {
-        if !READ.contains(&name.as_str()) && !SHOWN_LATER.contains(&name.as_str()) {
+        if !READ.contains(&name.as_str()) {
             return Err(context.unsupported(format_args!("extensionsRequired[{i}]"), format_args!("`{name}`")));
         }
     }
     for name in document.extensions_used.iter().chain(&document.extensions_required) {
-        if SHOWN_LATER.contains(&name.as_str()) {
-            context.warn("extensionsUsed", format_args!("`{name}` is not shown yet; the base material is shown"));
-        } else if !READ.contains(&name.as_str()) {
+        if !READ.contains(&name.as_str()) {
             context.warn("extensionsUsed", format_args!("`{name}` is not known and is ignored"));
         }
     }

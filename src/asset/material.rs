@@ -2,9 +2,12 @@
 
 use super::context::Context;
 use super::document::{self, Document, TextureInfo};
-use super::{AlphaMode, AssetError, MAX_UV_SETS, Material, TextureRef};
+use super::{AlphaMode, AssetError, MAX_UV_SETS, Material, TextureRef, material_extension};
 use glam::{Vec2, Vec3, Vec4};
 use serde_json::{Map, Value};
+
+const UNIT: (f32, f32) = (0.0, 1.0);
+const POSITIVE: (f32, f32) = (0.0, f32::MAX);
 
 /// All materials, and a default one at the end where some primitive names none.
 ///
@@ -22,7 +25,8 @@ pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Materia
     Ok(materials)
 }
 
-struct Reader<'a> {
+/// Reads one material.
+pub(super) struct Reader<'a> {
     context: &'a Context,
     document: &'a Document,
     field: String,
@@ -37,14 +41,14 @@ impl Reader<'_> {
         self.context.finite(format_args!("{}.normalTexture.scale", self.field), &[normal_scale])?;
         let strength = match &json.extensions.emissive_strength {
             Some(emissive) => {
-                self.within("emissiveStrength", [emissive.emissive_strength.unwrap_or(1.0)], f32::MAX)?[0]
+                self.within("emissiveStrength", [emissive.emissive_strength.unwrap_or(1.0)], POSITIVE)?[0]
             }
             None => 1.0,
         };
-        let emissive = Vec3::from(self.within("emissiveFactor", json.emissive_factor.unwrap_or([0.0; 3]), f32::MAX)?);
+        let emissive = Vec3::from(self.within("emissiveFactor", json.emissive_factor.unwrap_or([0.0; 3]), POSITIVE)?);
         let emissive = emissive * strength;
         self.context.finite(format_args!("{}.emissiveFactor", self.field), &emissive.to_array())?;
-        let cutoff = self.within("alphaCutoff", [json.alpha_cutoff.unwrap_or(0.5)], f32::MAX)?[0];
+        let cutoff = self.within("alphaCutoff", [json.alpha_cutoff.unwrap_or(0.5)], POSITIVE)?[0];
         let alpha_mode = match json.alpha_mode.as_deref() {
             None | Some("OPAQUE") => AlphaMode::Opaque,
             Some("MASK") => AlphaMode::Mask(cutoff),
@@ -54,43 +58,59 @@ impl Reader<'_> {
                 return Err(self.context.error(format_args!("{}.alphaMode", self.field), problem));
             }
         };
-        let base_color = self.within("baseColorFactor", pbr.base_color_factor.unwrap_or([1.0; 4]), 1.0)?;
+        let base_color = self.within("baseColorFactor", pbr.base_color_factor.unwrap_or([1.0; 4]), UNIT)?;
         let occlusion = scale(&json.occlusion_texture, |info| info.strength).unwrap_or(1.0);
         Ok(Material {
             name: json.name.clone(),
             base_color: Vec4::from(base_color),
             base_color_texture: self.texture("pbrMetallicRoughness.baseColorTexture", &pbr.base_color_texture)?,
-            metallic: self.within("metallicFactor", [pbr.metallic_factor.unwrap_or(default.metallic)], 1.0)?[0],
-            roughness: self.within("roughnessFactor", [pbr.roughness_factor.unwrap_or(default.roughness)], 1.0)?[0],
+            metallic: self.within("metallicFactor", [pbr.metallic_factor.unwrap_or(default.metallic)], UNIT)?[0],
+            roughness: self.within("roughnessFactor", [pbr.roughness_factor.unwrap_or(default.roughness)], UNIT)?[0],
             metallic_roughness_texture: self
                 .texture("pbrMetallicRoughness.metallicRoughnessTexture", &pbr.metallic_roughness_texture)?,
             normal_texture: self.texture("normalTexture", &json.normal_texture)?,
             normal_scale,
             occlusion_texture: self.texture("occlusionTexture", &json.occlusion_texture)?,
-            occlusion_strength: self.within("occlusionTexture.strength", [occlusion], 1.0)?[0],
+            occlusion_strength: self.within("occlusionTexture.strength", [occlusion], UNIT)?[0],
             emissive,
             emissive_texture: self.texture("emissiveTexture", &json.emissive_texture)?,
             alpha_mode,
             double_sided: json.double_sided,
             unlit: json.extensions.unlit.is_some(),
+            extensions: material_extension::read(self, &json.extensions.further)?,
             vair: self.vair(json),
         })
     }
 
-    /// Factors clamped to [0, max], with a warning.
-    fn within<const N: usize>(&self, name: &str, values: [f32; N], max: f32) -> Result<[f32; N], AssetError> {
+    /// Factors clamped to a range, with a warning.
+    pub(super) fn within<const N: usize>(
+        &self,
+        name: &str,
+        values: [f32; N],
+        (least, most): (f32, f32),
+    ) -> Result<[f32; N], AssetError> {
         let field = format!("{}.{name}", self.field);
         self.context.finite(&field, &values)?;
-        let clamped = values.map(|value| value.clamp(0.0, max));
+        let clamped = values.map(|value| value.clamp(least, most));
         if clamped != values {
-            let range = if max == f32::MAX { ">= 0".to_owned() } else { format!("in [0, {max}]") };
+            let range = if most == f32::MAX { format!(">= {least}") } else { format!("in [{least}, {most}]") };
             self.context.warn(field, format_args!("must be {range}; it is clamped"));
         }
         Ok(clamped)
     }
 
+    /// The material breaks the format at `name`.
+    pub(super) fn error(&self, name: &str, problem: &str) -> AssetError {
+        self.context.error(format_args!("{}.{name}", self.field), problem)
+    }
+
+    /// Notes an oddity at `name`.
+    pub(super) fn warn(&self, name: &str, problem: &str) {
+        self.context.warn(format_args!("{}.{name}", self.field), problem);
+    }
+
     /// `None`, with a warning, for a texture without an image.
-    fn texture(&self, name: &str, info: &Option<TextureInfo>) -> Result<Option<TextureRef>, AssetError> {
+    pub(super) fn texture(&self, name: &str, info: &Option<TextureInfo>) -> Result<Option<TextureRef>, AssetError> {
         let Some(info) = info else { return Ok(None) };
         let context = self.context;
         let field = format!("{}.{name}", self.field);

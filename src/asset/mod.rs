@@ -28,6 +28,7 @@ mod image;
 mod influence;
 mod light;
 mod material;
+mod material_extension;
 mod mesh;
 mod model;
 mod morph;
@@ -43,6 +44,9 @@ mod uri;
 pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
+pub use material_extension::{
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission,
+};
 pub use model::*;
 pub use tangent::{
     MAX_TRIANGLES_AROUND_CORNER, NoTangents, generate_tangents, generate_tangents_around_vertical, tangent_bytes,

@@ -5,6 +5,7 @@
 //! nothing again. Units are metres, seconds and radians; space is right-handed, Y up (glTF 2.0,
 //! section 3.4).
 
+use super::MaterialExtensions;
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
 /// A whole file.
@@ -295,6 +296,8 @@ pub struct Material {
     pub double_sided: bool,
     /// KHR_materials_unlit.
     pub unlit: bool,
+    /// What it has beside the standard surface.
+    pub extensions: MaterialExtensions,
     /// `extras.vair` and `extensions.VAIR_material` merged (the extension wins): look keys.
     pub vair: Option<serde_json::Map<String, serde_json::Value>>,
 }
@@ -317,6 +320,7 @@ impl Default for Material {
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
             unlit: false,
+            extensions: MaterialExtensions::default(),
             vair: None,
         }
     }

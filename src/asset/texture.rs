@@ -76,7 +76,7 @@ pub(super) fn read_images(
             material.occlusion_texture,
             material.emissive_texture,
         ];
-        for reference in references.into_iter().flatten() {
+        for reference in references.into_iter().flatten().chain(material.extensions.textures()) {
             used[textures[reference.texture].image] = true;
         }
     }

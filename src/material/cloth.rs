@@ -1,12 +1,15 @@
 //! The families of cloth: each takes the place of the standard surface's lobes and keeps its maps and parameters.
 
+use super::cotton::Cotton;
 use super::gauze::Gauze;
 use super::glint::Glint;
 use super::kind::TextureSource;
 use super::laser::Laser;
+use super::layered::Layered;
 use super::parameter::{Family, Parameter, ParameterError};
 use super::satin::Satin;
 use super::value::Value;
+use super::velvet::Velvet;
 use super::{Fur, Standard};
 use crate::asset::TextureRef;
 
@@ -89,6 +92,12 @@ cloths! {
     Laser = "laser";
     /// Sequins, lurex, glitter yarn: flakes that flash one by one.
     Glint = "glint";
+    /// Jersey, denim, flannel, felt: cloth with fuzz.
+    Cotton = "cotton";
     /// Silk, charmeuse, taffeta: an anisotropic highlight.
     Satin = "satin";
+    /// Velvet, corduroy: a dense pile, dark from the front and bright at its folds.
+    Velvet = "velvet";
+    /// Whatever glTF's material extensions put on top of each other.
+    Layered = "layered";
 }

@@ -59,8 +59,8 @@ crate::parameters! {
         film_thickness: f32 as Number = 450.0, THICKNESS, "nm", "Thickness of the film, the largest where film_thickness_map says less.";
         film_thickness_min: f32 as Number = 100.0, THICKNESS, "nm", "Thickness where film_thickness_map is 0.";
         film_thickness_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: G from 0 to 1 is the thickness from film_thickness_min to film_thickness.";
-        film_ior: f32 as Number = 1.8, (1.0, 3.0), "", "Refractive index of the film: the more it differs from the base's, the stronger the colours.";
-        base_ior: f32 as Number = 1.5, (1.0, 3.0), "", "Refractive index of the cloth under the film; metals have their own, of their colour.";
+        film_ior: f32 as Number = 2.0, (1.0, 3.0), "", "Refractive index of the film: the more it differs from the base's, the stronger the colours.";
+        base_ior: f32 as Number = 1.5, (1.0, 3.0), "", "Refractive index of the cloth under the film; metals have their own, of their colour: greys around 0.5 show the strongest film.";
         classic: bool as Switch = false, UNBOUNDED, "", "The formula of older engines: hues that a pixel cannot hold stay and sparkle.";
     }
 }

@@ -4,12 +4,14 @@
 //! presets all end in [`Family::set`]. Nothing here knows the GPU.
 
 mod cloth;
+mod cotton;
 mod error;
 mod fur;
 mod gauze;
 mod glint;
 pub mod kind;
 mod laser;
+mod layered;
 mod look;
 mod nearest;
 pub mod parameter;
@@ -18,27 +20,33 @@ pub mod procedural;
 pub mod reference;
 mod satin;
 mod schema;
+mod sheen;
 mod skin;
 mod standard;
 mod texture;
 mod value;
+mod velvet;
 
 pub use cloth::{Cloth, KINDS};
+pub use cotton::Cotton;
 pub use error::MaterialError;
 pub use fur::{Blend, ForceSpace, Fur, Shape};
 pub use gauze::{Gauze, Weave};
 pub use glint::{Flakes, Glint};
 pub use kind::{Choice, Form, Length, TextureSource};
 pub use laser::{ColorMode, FilmKind, HueCurve, HueDirection, Laser};
+pub use layered::Layered;
 pub use look::Look;
 pub use nearest::nearest;
 pub use parameter::{Family, Parameter, ParameterError};
 pub use preset::{Preset, presets};
 pub use satin::Satin;
 pub use schema::look_schema;
+pub use sheen::{Sheen, SheenEntry, SheenModel, SheenTable};
 pub use standard::{AlphaMode, Standard};
 pub use texture::{ImageName, ReadImage};
 pub use value::Value;
+pub use velvet::Velvet;
 
 use crate::asset::Asset;
 use texture::Appended;
@@ -77,7 +85,8 @@ pub fn from_asset(asset: &mut Asset, read_image: ReadImage) -> Result<Vec<Materi
     let mut keys = Vec::new();
     for (index, source) in asset.materials.iter_mut().enumerate() {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
-        materials.push(Material { name, standard: Standard::from(&*source), ..Material::default() });
+        let cloth = Layered::of(&source.extensions).map(Cloth::Layered);
+        materials.push(Material { name, standard: Standard::from(&*source), cloth, fur: None });
         if let Some(vair) = source.vair.clone() {
             keys.push((index, vair));
         }

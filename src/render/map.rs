@@ -58,7 +58,8 @@ impl Map {
         Self { name, constant, texture, srgb: false, stand_in: StandIn::White }
     }
 
-    fn or(self, stand_in: StandIn) -> Self {
+    /// The same with another texel where a material has none.
+    pub fn or(self, stand_in: StandIn) -> Self {
         Self { stand_in, ..self }
     }
 }

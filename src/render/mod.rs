@@ -136,9 +136,11 @@ impl Shot {
         options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
+        let mut lighting = scene::lighting(asset, scene_index, &pose);
+        lighting.ambient_radiance = options.ambient_radiance.unwrap_or(lighting.ambient_radiance);
         Ok(Self {
             camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
-            lighting: scene::lighting(asset, scene_index, &pose),
+            lighting,
             plan: Plan::new(scene, instances, options),
             pose,
         })

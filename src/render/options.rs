@@ -29,6 +29,9 @@ pub struct FrameOptions {
     pub tonemap: Tonemap,
     /// Stops; radiance is multiplied by 2^exposure.
     pub exposure_ev: f32,
+    /// Linear radiance of the surroundings, the same from everywhere, >= 0; `None`: enough to see by, and less of it where
+    /// the scene has lights.
+    pub ambient_radiance: Option<Vec3>,
     /// What is shown where nothing was drawn.
     pub background: Background,
     /// Format of the linear colour target.
@@ -58,6 +61,7 @@ impl Default for FrameOptions {
             variant: None,
             tonemap: Tonemap::Neutral,
             exposure_ev: 0.0,
+            ambient_radiance: None,
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
@@ -98,6 +102,9 @@ impl FrameOptions {
         }
         if !(self.layer_scale > 0.0 && self.layer_scale.is_finite()) {
             return wrong("layer scale", format!("{} is not a finite number greater than 0", self.layer_scale));
+        }
+        if self.ambient_radiance.is_some_and(|radiance| !(radiance.min_element() >= 0.0 && radiance.is_finite())) {
+            return wrong("ambient radiance", "must be finite and not negative".to_owned());
         }
         if !self.time_s.is_finite() || !self.exposure_ev.is_finite() {
             return wrong("time and exposure", "must be finite numbers".to_owned());

@@ -4,5 +4,6 @@ mod builder;
 mod container;
 mod content;
 mod hostile;
+mod material_extension;
 mod mesh;
 mod real;

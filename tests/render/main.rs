@@ -17,6 +17,7 @@ mod stage;
 
 mod blending;
 mod camera;
+mod cloth;
 mod coat;
 mod count;
 mod deform;
@@ -25,7 +26,10 @@ mod display;
 mod edges;
 mod everything;
 mod gauze;
+mod fuzz;
+mod glint;
 mod goldens;
+mod laser;
 mod lean;
 mod light;
 mod order;

@@ -6,19 +6,24 @@ use crate::stage::{Stage, at, options, plain, quad};
 use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::albedo::Fit;
-use vair::material::reference::standard::Surface;
+use vair::material::reference::standard::{Lobes, Surface};
 use vair::scene::{AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Light};
 
 pub const AMBIENT: f64 = AMBIENT_RADIANCE_WITH_FILE_LIGHTS as f64;
 
-/// Radiance of a surface towards `v` under one directional light and the ambient, by the twins.
-pub fn radiance(surface: Surface, ambient: f64, normal: DVec3, v: DVec3, l: DVec3, irradiance: DVec3) -> DVec3 {
+/// Radiance of two lobes towards `v` under one directional light and the ambient, by the twins; directions in the tangent
+/// frame.
+pub fn lit(lobes: Lobes, ambient: f64, v: DVec3, l: DVec3, irradiance: DVec3) -> DVec3 {
     let fit = Fit::shipped();
+    lobes.brdf_times_cosine(&fit, v, l) * irradiance + lobes.ambient(&fit, v.z) * ambient
+}
+
+/// The same of a surface; directions in the world.
+pub fn radiance(surface: Surface, ambient: f64, normal: DVec3, v: DVec3, l: DVec3, irradiance: DVec3) -> DVec3 {
     let tangent = normal.any_orthonormal_vector();
     let bitangent = normal.cross(tangent);
     let in_tangent = |w: DVec3| DVec3::new(w.dot(tangent), w.dot(bitangent), w.dot(normal));
-    let v = in_tangent(v);
-    surface.brdf_times_cosine(&fit, v, in_tangent(l)) * irradiance + surface.ambient(&fit, v.z) * ambient
+    lit(surface.lobes(), ambient, in_tangent(v), in_tangent(l), irradiance)
 }
 
 fn tilt(angle_deg: f32) -> Quat {

@@ -99,7 +99,7 @@ fn cloths() -> Scene {
 }
 
 /// The cloth with that texture for every map that it declares.
-fn with_every_map(mut cloth: Cloth, map: TextureRef) -> Cloth {
+pub fn with_every_map(mut cloth: Cloth, map: TextureRef) -> Cloth {
     struct One(usize);
     impl TextureSource for One {
         fn texture(&mut self, _: &ImageName) -> Result<usize, String> {

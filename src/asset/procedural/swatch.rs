@@ -26,7 +26,7 @@ pub fn swatch(draped: bool) -> Asset {
     set.object("paper", backdrop(4.0, 2.6, 1.6, 2.6, 1.0), paper, Vec3::ZERO, Quat::IDENTITY);
     if draped {
         let stone = set.material(surface("stone", [0.10, 0.045, 0.03], 0.0, 0.35));
-        set.object("cloth", drape(RADIUS_M, 0.405, 160), sample, Vec3::ZERO, Quat::from_rotation_y(0.42));
+        set.object("cloth", drape(RADIUS_M, 0.37, 160), sample, Vec3::ZERO, Quat::from_rotation_y(0.42));
         set.object("stone", sphere(RADIUS_M * 0.98, 24), stone, Vec3::Y * RADIUS_M, Quat::IDENTITY);
     } else {
         set.object("ball", sphere(RADIUS_M, 24), sample, Vec3::Y * RADIUS_M * 1.03, Quat::from_rotation_y(0.42));

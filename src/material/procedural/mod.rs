@@ -48,6 +48,12 @@ pub const ALL: &[Procedural] = &[
         help: "Data: damask, 1 in the figure and 0 in the ground.",
         make: jacquard::jacquard,
     },
+    Procedural { name: "brocade", help: "Colour: the figure of jacquard in gold on crimson.", make: jacquard::brocade },
+    Procedural {
+        name: "brocade_metal",
+        help: "Data: roughness (G) and metal (B) of brocade.",
+        make: jacquard::brocade_metal,
+    },
     Procedural {
         name: "cloth_noise",
         help: "Data: soft unevenness of yarn and dye around 0.5.",

@@ -4,7 +4,8 @@
 //! Grids"; Kemppinen et al. 2025, "Glinty NDFs in Constant Time"; Shirley & Chiu 1997, "A Low Distortion Map Between Disk
 //! and Square".
 
-use super::{ggx, hash};
+use super::albedo::Fit;
+use super::{ggx, hash, standard};
 use crate::material::Flakes;
 use glam::{DMat2, DVec2, DVec3, IVec2, Vec2Swizzles};
 use std::f64::consts::PI;
@@ -56,6 +57,17 @@ pub fn shuffle(number: u32, fineness: u32, key: u32) -> u32 {
     let first = ((number ^ key) & mask).wrapping_mul(0x9e37_79b1).wrapping_add(key >> 8) & mask;
     let second = (first ^ first >> fineness).wrapping_mul(0x85eb_ca6b).wrapping_add(key >> 16) & mask;
     (second ^ second >> fineness).wrapping_mul(0xc2b2_ae35) & mask
+}
+
+/// Which number [`shuffle`] made this of.
+pub fn unshuffle(shuffled: u32, fineness: u32, key: u32) -> u32 {
+    let mask = (1 << (2 * fineness)) - 1;
+    // Newton's iteration doubles the bits that are right, of which an odd number by itself has three.
+    let inverse = |factor: u32| (0..4).fold(factor, |x, _| x.wrapping_mul(2u32.wrapping_sub(factor.wrapping_mul(x))));
+    let third = shuffled.wrapping_mul(inverse(0xc2b2_ae35)) & mask;
+    let second = (third ^ third >> fineness).wrapping_sub(key >> 16).wrapping_mul(inverse(0x85eb_ca6b)) & mask;
+    let first = (second ^ second >> fineness).wrapping_sub(key >> 8).wrapping_mul(inverse(0x9e37_79b1)) & mask;
+    (first ^ key) & mask
 }
 
 /// Axes of the plane that the lattice lies in, by the surface's normal in the rest pose.
@@ -133,7 +145,8 @@ impl Footprint {
         let covariance = covariance(self.disc, self.pixel);
         let (x, y) = (covariance.x_axis, covariance.y_axis);
         let adjugate = DMat2::from_cols(DVec2::new(y.y, -x.y), DVec2::new(-y.x, x.x));
-        let u = offset.dot(adjugate * offset) * self.inverse_squared;
+        // Never negative, whatever a matrix of nearly a line is rounded to.
+        let u = (offset.dot(adjugate * offset) * self.inverse_squared).max(0.0);
         if u >= 1.0 {
             return 0.0;
         }
@@ -271,33 +284,93 @@ pub fn level(flakes: &Flakes, footprint: &Footprint, tiles: &Tiles, square: DVec
     all.map(|(step, seed)| tile(flakes, footprint, tiles.first + *step, streams, seed, square, lobe)).sum()
 }
 
-/// The factor on the smooth lobe in a pixel, of two levels and their shares; `spread` as in [`lobe`].
-pub fn flash(flakes: &Flakes, footprint: &Footprint, levels: &[(f64, Tiles)], square: DVec2, spread: f64) -> DVec3 {
-    let wide = lobe(flakes, spread);
-    let seen = wide.min(0.5);
+/// A flake that a pixel may show as a disc.
+#[derive(Debug, Clone, Copy)]
+pub struct Disc {
+    /// Tint times weight.
+    pub tinted: DVec3,
+    /// Share of area over the mean share.
+    pub weight: f64,
+    /// Where its normal lies.
+    pub square: DVec2,
+}
+
+/// The flake at a place of the lattice.
+pub fn disc(flakes: &Flakes, footprint: &Footprint, place: IVec2, chart: u32) -> Disc {
+    let (tint, weight) = flake(flakes, footprint, place, 0, chart * 16);
+    let side = 1 << flakes.fineness;
+    let (tile, at) = (place.div_euclid(IVec2::splat(side)), place.rem_euclid(IVec2::splat(side)).as_uvec2());
+    let seed = seed(tile, chart * 16);
+    let number = unshuffle(at.x + at.y * side as u32, flakes.fineness, seed[1]);
+    let cell = DVec2::new(f64::from(number % side as u32), f64::from(number / side as u32)) + 0.5;
+    let moved = cell / f64::from(side) - shift(seed);
+    let square = 2.0 * (moved - (moved + 0.5).floor());
+    Disc { tinted: tint * weight, weight, square }
+}
+
+/// The flakes that a pixel may show as discs.
+pub fn discs(flakes: &Flakes, footprint: &Footprint, chart: u32) -> [Disc; 4] {
+    let first = footprint.cell + (footprint.within - 0.5).floor().as_ivec2();
+    STEPS.map(|step| disc(flakes, footprint, first + step, chart))
+}
+
+/// How well a pixel tells discs apart, [0, 1].
+pub fn apart(footprint: &Footprint) -> f64 {
+    ((0.45 - footprint.blur) * 4.0).clamp(0.0, 1.0)
+}
+
+/// Tint and share of area of the flakes in a pixel over their mean share; no more than all of it.
+pub fn cover(flakes: &Flakes, discs: &[Disc; 4], apart: f64) -> (DVec3, f64) {
+    let weight: f64 = discs.iter().map(|disc| disc.weight).sum();
+    let mean_share = PI * f64::from(flakes.radius).powi(2) / edges().determinant();
+    let left = 1.0 / (mean_share * weight).max(1.0);
+    let tinted = discs.iter().map(|disc| disc.tinted).sum::<DVec3>() * left;
+    (DVec3::splat(mean_tint(flakes)).lerp(tinted, apart), 1.0 + (weight * left - 1.0) * apart)
+}
+
+/// Tint times weight of a disc whose lobe holds the half vector.
+pub fn disc_flash(flakes: &Flakes, disc: &Disc, square: DVec2, lobe: f64) -> DVec3 {
+    let cells = f64::from(1u32 << flakes.fineness);
+    let way = 0.5 * (square - disc.square);
+    let u = ((way - (way + 0.5).floor()) * cells / lobe).length_squared();
+    disc.tinted * lobe_profile(u) * cells * cells / (PI * lobe * lobe)
+}
+
+/// The factor on the smooth lobe in a pixel that tells discs apart.
+pub fn discs_flash(flakes: &Flakes, discs: &[Disc; 4], square: DVec2, lobe: f64) -> DVec3 {
+    let seen = lobe.min(0.5 * f64::from(1u32 << flakes.fineness));
+    let sum = discs.iter().map(|disc| disc_flash(flakes, disc, square, seen)).sum();
+    DVec3::splat(mean_tint(flakes)).lerp(sum, seen / lobe)
+}
+
+/// The factor on the smooth lobe in a pixel that sees levels of tiles, each with its share.
+pub fn tiles_flash(flakes: &Flakes, footprint: &Footprint, levels: &[(f64, Tiles)], square: DVec2, lobe: f64) -> DVec3 {
+    let seen = lobe.min(0.5);
     let mean = DVec3::splat(mean_tint(flakes));
     let off_mean = |tiles: &Tiles| level(flakes, footprint, tiles, square, seen) - mean;
-    mean + seen / wide * levels.iter().map(|(share, tiles)| *share * off_mean(tiles)).sum::<DVec3>()
+    mean + seen / lobe * levels.iter().map(|(share, tiles)| *share * off_mean(tiles)).sum::<DVec3>()
 }
 
-/// [`flash`] of the levels that the footprint shows.
-pub fn flash_of_pixel(flakes: &Flakes, footprint: &Footprint, chart: u32, square: DVec2, spread: f64) -> DVec3 {
-    let (first, near, far) = levels(footprint.reach, flakes.fineness);
-    let tiles = |level| Tiles::new(footprint.cell, flakes.fineness, level, chart);
-    flash(flakes, footprint, &[(near, tiles(first)), (far, tiles(first + 1))], square, spread)
+/// log2 of the cells along the square of normals, so few that a lobe of that radius, in cells of the finest, fits in one.
+pub fn fineness(flakes: &Flakes, lobe: f64) -> u32 {
+    // Rounding must not halve a square whose lobe just fits.
+    (0..=flakes.fineness)
+        .rev()
+        .find(|fineness| lobe * 0.5f64.powi((flakes.fineness - fineness) as i32) <= 0.50004)
+        .unwrap_or(0)
 }
 
-/// Tint and share of the discs at a pixel over their mean share.
-pub fn discs(flakes: &Flakes, footprint: &Footprint, chart: u32) -> (DVec3, f64) {
-    let apart = ((0.45 - footprint.blur) * 4.0).clamp(0.0, 1.0);
-    let first = footprint.cell + (footprint.within - 0.5).floor().as_ivec2();
-    let (mut color, mut share) = (DVec3::ZERO, 0.0);
-    for step in STEPS {
-        let (tint, weight) = flake(flakes, footprint, first + step, 0, chart * 16);
-        color += tint * weight;
-        share += weight;
+/// The factor on the smooth lobe in a pixel; `spread` as in [`lobe`].
+pub fn flash(flakes: &Flakes, footprint: &Footprint, chart: u32, square: DVec2, spread: f64) -> DVec3 {
+    let lobe = lobe(flakes, spread);
+    if apart(footprint) > 0.0 {
+        return discs_flash(flakes, &discs(flakes, footprint, chart), square, lobe);
     }
-    (DVec3::splat(mean_tint(flakes)).lerp(color, apart), 1.0 + (share - 1.0) * apart)
+    let seen = Flakes { fineness: fineness(flakes, lobe), ..*flakes };
+    let (first, near, far) = levels(footprint.reach, seen.fineness);
+    let tiles = |level| Tiles::new(footprint.cell, seen.fineness, level, chart);
+    let in_cells = lobe * 0.5f64.powi((flakes.fineness - seen.fineness) as i32);
+    tiles_flash(&seen, footprint, &[(near, tiles(first)), (far, tiles(first + 1))], square, in_cells)
 }
 
 /// The smooth lobe times the cosine of `l`: compensated GGX of metal of that colour.
@@ -305,4 +378,40 @@ pub fn smooth_times_cosine(color: DVec3, compensation: DVec3, alpha: f64, v: DVe
     let h = ggx::half_vector(v, l);
     let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
     color.map(|f0| ggx::schlick(f0, v.dot(h))) * compensation * lobe
+}
+
+/// Flakes over a standard surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Covered {
+    /// The cloth under them.
+    pub cloth: standard::Surface,
+    /// Linear reflectance of the flakes' metal.
+    pub color: DVec3,
+    /// Perceptual, of the lobe that all flakes make up.
+    pub roughness: f64,
+    /// Mean share of the cloth that they cover.
+    pub coverage: f64,
+    /// Share of its light that a flake gives back.
+    pub intensity: f64,
+}
+
+impl Covered {
+    /// Share of the cloth that shows, where flakes cover that share of their mean.
+    fn bare(&self, cover: f64) -> f64 {
+        1.0 - (self.coverage * cover).min(1.0)
+    }
+
+    /// BRDF times `mu_l` in a pixel of that cover and flash; 0 where a direction is at or below the horizon.
+    pub fn brdf_times_cosine(&self, fit: &Fit, v: DVec3, l: DVec3, cover: f64, flash: DVec3) -> DVec3 {
+        let metal = standard::Surface { base_color: self.color, metallic: 1.0, roughness: self.roughness };
+        let compensation = metal.specular_compensation(fit, v.z);
+        let lobe = smooth_times_cosine(self.color, compensation, ggx::alpha_of_roughness(self.roughness), v, l);
+        self.cloth.brdf_times_cosine(fit, v, l) * self.bare(cover) + lobe * flash * self.coverage * self.intensity
+    }
+
+    /// Radiance under constant white radiance 1, of a pixel that flakes cover so and with that tint.
+    pub fn ambient(&self, fit: &Fit, mu_v: f64, (tint, cover): (DVec3, f64)) -> DVec3 {
+        let metal = self.color.map(|f0| fit.compensated_albedo(f0, mu_v, self.roughness));
+        self.cloth.ambient(fit, mu_v) * self.bare(cover) + metal * tint * self.coverage * self.intensity
+    }
 }

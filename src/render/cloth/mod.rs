@@ -1,10 +1,14 @@
 //! How each family of cloth is drawn: its fragment shader, its uniform block, its maps and tables, and what of it is
 //! decided when the pipeline is made.
 
+mod cotton;
 mod gauze;
 mod glint;
 mod laser;
+mod layered;
 mod satin;
+mod sheen;
+mod velvet;
 
 use super::map::Map;
 use super::table::Table;
@@ -42,6 +46,9 @@ pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
         Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
         Cloth::Laser(laser) => laser::shader(laser, standard),
         Cloth::Glint(glint) => glint::shader(glint, standard),
+        Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
         Cloth::Satin(satin) => satin::shader(satin, standard),
+        Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
+        Cloth::Layered(layered) => layered::shader(layered, standard),
     }
 }

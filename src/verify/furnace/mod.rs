@@ -9,10 +9,14 @@ mod claim;
 mod classic;
 mod fur;
 mod gauze;
+mod fuzz;
+mod glint;
 mod laser;
+mod layered;
 mod light;
 mod quadrature;
 mod satin;
+mod sheen;
 mod standard;
 
 pub use claim::{Claim, Input, Measure};
@@ -95,7 +99,19 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
     serializer.collect_map(inputs.iter().copied())
 }
 
-/// Everything that is claimed, ours first.
+/// What is claimed of each family, ours first.
+const FAMILIES: &[fn() -> Vec<Claim>] = &[
+    standard::claims,
+    fur::claims,
+    sheen::claims,
+    fuzz::claims,
+    laser::claims,
+    glint::claims,
+    layered::claims,
+    classic::claims,
+];
+
+/// Everything that is claimed.
 pub fn claims() -> Vec<Claim> {
     [
         standard::claims(),
@@ -109,6 +125,7 @@ pub fn claims() -> Vec<Claim> {
     .into_iter()
     .flatten()
     .collect()
+    FAMILIES.iter().flat_map(|claims| claims()).collect()
 }
 
 /// Judges every claim at its corners and at `random` points more ([`RANDOM_POINTS`] in a full run); the classic formulas

@@ -65,6 +65,17 @@ pub(super) const TWINS: &[Twin] = &[
         };
         f0.to_array().map(average).to_vec()
     }),
+    Twin::new("compensated_albedo", &[UNIT, UNIT, UNIT], |given| {
+        let (f0, f90, terms) = (given.vec3(), given.number(), given.vec2());
+        (f0.lerp(DVec3::splat(f90), terms.y) * f0.lerp(DVec3::ONE, terms.x)).to_array().to_vec()
+    }),
+    Twin::new("average_compensated_albedo", &[UNIT, UNIT, UNIT], |given| {
+        let (f0, f90, terms) = (given.vec3(), given.number(), given.vec3());
+        let (both, white, fresnel) = (terms.x, terms.y, terms.z);
+        // The average of (F0 + (F90 - F0) Q) (F0 + (1 - F0) E1), term by term.
+        let rest = f90 - f0;
+        (f0 * f0 + f0 * (1.0 - f0) * white + rest * f0 * fresnel + rest * (1.0 - f0) * both).to_array().to_vec()
+    }),
 ];
 
 // A polynomial is as good as if each of its terms had been rounded once: half a unit in the last place of the sum of

@@ -4,12 +4,11 @@ use super::super::domain::{ALPHA, Domain, UNIT};
 use super::super::twin::{Given, Twin};
 use super::albedo::{AVERAGE_ROUNDING, FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use crate::material::reference::anisotropy::{Lobe, albedo_terms, average_terms, mean_width};
-use crate::material::reference::ggx;
 use glam::DVec3;
 
 /// Members of `AnisotropicLobe`.
 pub(super) struct Seen {
-    lobe: Lobe,
+    pub(super) lobe: Lobe,
     compensation: DVec3,
 }
 
@@ -18,10 +17,15 @@ impl Seen {
         let (f0, f90, compensation) = (given.vec3(), given.number(), given.vec3());
         Self { lobe: Lobe { f0, f90, alpha: (given.number(), given.number()) }, compensation }
     }
+
+    /// The compensated lobe times the cosine of `l`.
+    pub(super) fn times_cosine(&self, v: DVec3, l: DVec3) -> DVec3 {
+        self.compensation * self.lobe.single_scattering_times_cosine(v, l)
+    }
 }
 
 /// Of the compensation: 1 / E1 of the roughest white surface is 3.3.
-const COMPENSATION: Domain = Domain::Uniform(1.0, 3.3, &[1.0, 3.3]);
+pub(super) const COMPENSATION: Domain = Domain::Uniform(1.0, 3.3, &[1.0, 3.3]);
 
 fn alpha(given: &mut Given<'_>) -> (f64, f64) {
     (given.number(), given.number())
@@ -54,13 +58,7 @@ pub(super) const TWINS: &[Twin] = &[
         &[UNIT, UNIT, COMPENSATION, ALPHA, ALPHA, Domain::Hemisphere, Domain::Direction],
         |given| {
             let (seen, v, l) = (Seen::new(given), given.vec3(), given.vec3());
-            if v.z <= 0.0 || l.z <= 0.0 {
-                return vec![0.0; 3];
-            }
-            let ((ax, ay), h) = (seen.lobe.alpha, ggx::half_vector(v, l));
-            let lobe = ggx::ndf(h, ax, ay) * ggx::masking_shadowing_times_cosine(v, l, ax, ay);
-            let fresnel = seen.lobe.f0.lerp(DVec3::splat(seen.lobe.f90), ggx::schlick(0.0, v.dot(h)));
-            (fresnel * seen.compensation * lobe).to_array().to_vec()
+            seen.times_cosine(v, l).to_array().to_vec()
         },
     ),
     Twin::new("anisotropic_lobe_albedo", &[UNIT, UNIT, COMPENSATION, ALPHA, ALPHA, Domain::Hemisphere], |given| {

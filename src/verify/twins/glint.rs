@@ -2,8 +2,9 @@
 
 use super::super::domain::{ALMOST_ONE, ALPHA, Domain, UNIT};
 use super::super::twin::{Given, Limit, Rule, Twin};
+use super::ULP;
 use crate::material::Flakes;
-use crate::material::reference::glint::{self, Footprint, Tiles};
+use crate::material::reference::glint::{self, Disc, Footprint, Tiles};
 use glam::{DMat2, DVec2, DVec3, IVec2};
 
 /// A place or tile next to another one.
@@ -14,6 +15,8 @@ const CHART: Domain = Domain::Choice(&[0, 1, 2]);
 /// Component of a vector, in rhombi.
 const VECTOR: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1e-40, 0.4]);
 const RADIUS: Domain = Domain::Uniform(0.0, 0.498, &[0.0, 0.433, 0.498]);
+/// As a pixel sees it.
+const WIDE_LOBE: Domain = Domain::Log(0.25, 10.0, &[0.25, 0.5, 10.0]);
 const LOBE: Domain = Domain::Uniform(0.25, 0.5, &[0.25, 0.5]);
 /// In the square of normals.
 const SQUARE: Domain = Domain::Uniform(-1.0, 1.0, &[-1.0, 0.0, 1e-7, 1.0]);
@@ -33,6 +36,8 @@ const FOOTPRINT: [Domain; 9] = [
     Domain::Uniform(0.0, 4.0, &[0.0, 4.0]),
     Domain::Uniform(0.0, 1.0, &[0.0, 0.2, 0.3, 0.45]),
 ];
+const TINTED: Domain = Domain::Uniform(0.0, 4.0, &[0.0, 1.0]);
+const DISC: [Domain; 2] = [TINTED, SQUARE];
 const TILES: [Domain; 7] =
     [NEAR, CHART, Domain::Choice(&[0, 1]), Domain::Bits, Domain::Bits, Domain::Bits, Domain::Bits];
 
@@ -88,6 +93,18 @@ fn tiles(given: &mut Given<'_>) -> Tiles {
     }
 }
 
+fn disc(given: &mut Given<'_>) -> Disc {
+    Disc { tinted: given.vec3(), weight: given.number(), square: given.vec2() }
+}
+
+fn discs(given: &mut Given<'_>) -> [Disc; 4] {
+    [disc(given), disc(given), disc(given), disc(given)]
+}
+
+fn disc_words(disc: &Disc) -> Vec<f64> {
+    [words3(disc.tinted), vec![disc.weight], words2(disc.square)].concat()
+}
+
 fn words2(vector: DVec2) -> Vec<f64> {
     vector.to_array().to_vec()
 }
@@ -130,6 +147,12 @@ pub(super) const TWINS: &[Twin] = &[
     },
     Twin {
         limit: Limit::EXACT,
+        ..Twin::new("glint_unshuffle", &[Domain::Bits, FINENESS, Domain::Bits], |given| {
+            vec![f64::from(glint::unshuffle(given.uint(), given.uint(), given.uint()))]
+        })
+    },
+    Twin {
+        limit: Limit::EXACT,
         ..Twin::new("glint_chart", &[Domain::Direction], |given| vec![f64::from(glint::chart(given.vec3()))])
     },
     Twin {
@@ -160,6 +183,17 @@ pub(super) const TWINS: &[Twin] = &[
             words
         },
     )
+    .allowance(|given| {
+        let flakes = flakes(given);
+        let f = Footprint::new(&flakes, given.vec2(), given.vec2(), given.vec2());
+        // Where a grazing view stretches the pixel to nearly a line, its area is the difference of two products, each of
+        // six roundings; the kernel's is at least that.
+        let (x, y) = (f.pixel.x_axis, f.pixel.y_axis);
+        let rounding = 6.0 * ULP * ((x.x * y.y).abs() + (x.y * y.x).abs());
+        let mut allowed = vec![0.0; 13];
+        allowed[10] = 2.0 * rounding * f.inverse_squared.powf(1.5);
+        allowed
+    })
     .rule(Rule::Stepped(4)),
     Twin::new(
         "glint_flake",
@@ -229,22 +263,57 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("glint_lobe", &join::<6>(&[&FLAKES, &[SPREAD]]), |given| {
         vec![glint::lobe(&flakes(given), given.number())]
     }),
+    // Log2 is off by 2^-21 between 1/2 and 2, and the lobe that just fits is where it steps.
+    Twin::new("glint_fineness", &join::<6>(&[&FLAKES, &[WIDE_LOBE]]), |given| {
+        vec![f64::from(glint::fineness(&flakes(given), given.number()))]
+    })
+    .limit(0.0, 0.0)
+    .rule(Rule::Stepped(8)),
+    // A normal on the rim of the square may lie on the opposite one just as well.
+    Twin::new("glint_disc", &join::<16>(&[&FLAKES, &FOOTPRINT, &[NEAR, CHART]]), |given| {
+        let (flakes, footprint) = (flakes(given), footprint(given));
+        let place = ivec2(given);
+        disc_words(&glint::disc(&flakes, &footprint, place, given.uint()))
+    })
+    .rule(KERNEL),
+    Twin::new("glint_discs", &join::<15>(&[&FLAKES, &FOOTPRINT, &[CHART]]), |given| {
+        let (flakes, footprint) = (flakes(given), footprint(given));
+        let discs = glint::discs(&flakes, &footprint, given.uint());
+        let mut words = discs.iter().map(disc_words).collect::<Vec<_>>().concat();
+        words.push(glint::apart(&footprint));
+        words
+    })
+    .rule(KERNEL),
+    Twin::new("glint_cover", &join::<14>(&[&FLAKES, &DISC, &DISC, &DISC, &DISC, &[UNIT]]), |given| {
+        let (flakes, discs) = (flakes(given), discs(given));
+        let (tinted, share) = glint::cover(&flakes, &discs, given.number());
+        tinted.extend(share).to_array().to_vec()
+    }),
+    Twin::new("glint_disc_flash", &join::<9>(&[&FLAKES, &DISC, &[SQUARE, WIDE_LOBE]]), |given| {
+        let (flakes, disc) = (flakes(given), disc(given));
+        words3(glint::disc_flash(&flakes, &disc, given.vec2(), given.number()))
+    })
+    .rule(KERNEL),
     Twin::new(
-        "glint_flash",
-        &join::<33>(&[&FLAKES, &FOOTPRINT, &[NEAR, SHARE, SHARE], &TILES, &TILES, &[SQUARE, SPREAD]]),
+        "glint_discs_flash",
+        &join::<16>(&[&FLAKES, &DISC, &DISC, &DISC, &DISC, &[UNIT, SQUARE, WIDE_LOBE]]),
+        |given| {
+            let (flakes, discs) = (flakes(given), discs(given));
+            let _apart = given.number();
+            words3(glint::discs_flash(&flakes, &discs, given.vec2(), given.number()))
+        },
+    )
+    .rule(KERNEL),
+    Twin::new(
+        "glint_tiles_flash",
+        &join::<33>(&[&FLAKES, &FOOTPRINT, &[NEAR, SHARE, SHARE], &TILES, &TILES, &[SQUARE, WIDE_LOBE]]),
         |given| {
             let (flakes, footprint) = (flakes(given), footprint(given));
             let (_, near, far) = (given.uint(), given.number(), given.number());
             let levels = [(near, tiles(given)), (far, tiles(given))];
-            words3(glint::flash(&flakes, &footprint, &levels, given.vec2(), given.number()))
+            words3(glint::tiles_flash(&flakes, &footprint, &levels, given.vec2(), given.number()))
         },
     )
-    .rule(KERNEL),
-    Twin::new("glint_discs", &join::<15>(&[&FLAKES, &FOOTPRINT, &[CHART]]), |given| {
-        let (flakes, footprint) = (flakes(given), footprint(given));
-        let (color, share) = glint::discs(&flakes, &footprint, given.uint());
-        color.extend(share).to_array().to_vec()
-    })
     .rule(KERNEL),
     Twin::new(
         "glint_smooth_times_cosine",

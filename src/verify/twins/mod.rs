@@ -3,50 +3,62 @@
 mod albedo;
 mod anisotropy;
 mod color;
+mod cotton;
 mod coverage;
 mod direction;
 mod film;
+mod fuzz;
 mod gauze;
 mod ggx;
 mod glint;
 mod hash;
 mod hsv;
 mod laser;
+mod layered;
 mod light;
 mod lock;
 mod satin;
+mod sheen;
 mod standard;
 mod strand;
 mod sway;
 mod tonemap;
 mod uv;
+mod velvet;
 
 use super::twin::Twin;
 
+/// Every file's.
+const FILES: &[&[Twin]] = &[
+    albedo::TWINS,
+    anisotropy::TWINS,
+    color::TWINS,
+    cotton::TWINS,
+    coverage::TWINS,
+    direction::TWINS,
+    film::TWINS,
+    fuzz::TWINS,
+    gauze::TWINS,
+    ggx::TWINS,
+    glint::TWINS,
+    hash::TWINS,
+    hsv::TWINS,
+    laser::TWINS,
+    layered::TWINS,
+    light::TWINS,
+    lock::TWINS,
+    satin::TWINS,
+    sheen::TWINS,
+    standard::TWINS,
+    strand::TWINS,
+    sway::TWINS,
+    tonemap::TWINS,
+    uv::TWINS,
+    velvet::TWINS,
+];
+
 /// Every twin, by file.
 pub fn twins() -> impl Iterator<Item = &'static Twin> {
-    const FILES: &[&[Twin]] = &[
-        albedo::TWINS,
-        anisotropy::TWINS,
-        color::TWINS,
-        coverage::TWINS,
-        direction::TWINS,
-        gauze::TWINS,
-        film::TWINS,
-        ggx::TWINS,
-        glint::TWINS,
-        hash::TWINS,
-        hsv::TWINS,
-        laser::TWINS,
-        light::TWINS,
-        lock::TWINS,
-        satin::TWINS,
-        standard::TWINS,
-        strand::TWINS,
-        sway::TWINS,
-        tonemap::TWINS,
-        uv::TWINS,
-    ];
     FILES.iter().copied().flatten()
 }
 

@@ -3,7 +3,7 @@
 //! Estevez & Kulla 2017, "Production Friendly Microfacet Sheen BRDF" (distribution); Neubelt & Pettineo 2013, "Crafting
 //! a Next-Gen Material Pipeline for The Order: 1886" (visibility).
 
-use crate::material::reference::ggx;
+use crate::material::reference::{fuzz, ggx};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -62,5 +62,14 @@ impl Cotton {
         let base = self.base_color / PI * l.z + fuzz_times_cosine(v, l, self.roughness) * fresnel;
         base * (1.0 - self.sheen_color * sheen_albedo)
             + self.sheen_color * fuzz_times_cosine(v, l, self.sheen_roughness)
+    }
+    /// Radiance under constant white radiance 1; `pile_albedo` is the table's entry for the base's own lobe, `occlusion` 1
+    /// where the sky is open.
+    pub fn ambient(&self, pile_albedo: f64, sheen_albedo: f64, mu_v: f64, occlusion: f64) -> f64 {
+        let seen =
+            |roughness, color| fuzz::bounced_occlusion(fuzz::specular_occlusion(mu_v, roughness, occlusion), color);
+        self.base_color * (1.0 - self.sheen_color * sheen_albedo) * occlusion
+            + 0.04 * pile_albedo * seen(self.roughness, 0.04)
+            + self.sheen_color * sheen_albedo * seen(self.sheen_roughness, self.sheen_color)
     }
 }
