@@ -4,15 +4,18 @@
 //! Measured on the double-precision twins, which the device is checked against. The formulas of older engines are
 //! measured beside them, and shown as what they are.
 
+mod anisotropy;
 mod claim;
 mod classic;
 mod fur;
+mod gauze;
 mod fuzz;
 mod glint;
 mod laser;
 mod layered;
 mod light;
 mod quadrature;
+mod satin;
 mod sheen;
 mod standard;
 
@@ -110,6 +113,18 @@ const FAMILIES: &[fn() -> Vec<Claim>] = &[
 
 /// Everything that is claimed.
 pub fn claims() -> Vec<Claim> {
+    [
+        standard::claims(),
+        fur::claims(),
+        anisotropy::claims(),
+        gauze::claims(),
+        laser::claims(),
+        satin::claims(),
+        classic::claims(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
     FAMILIES.iter().flat_map(|claims| claims()).collect()
 }
 
