@@ -1,4 +1,4 @@
-//! vair renders fur with Vulkan, and says what that cost.
+//! vair renders fur and cloth with Vulkan, and says what that cost.
 //!
 //! It reads glTF, dresses materials from glTF, look files or presets, and draws them on any Vulkan 1.3 device, software
 //! devices included. A picture takes ten lines:
@@ -78,6 +78,14 @@
 //! within the slab and find the strand that it meets, and where. So a handful of shells shows what infinitely many
 //! would; `vair report` says how nearly and at which cost, beside the ways of other renderers ([`render::Shells`]).
 //!
+//! # Cloth
+//! A family of cloth ([`material::Cloth`]) takes the place of the standard surface's lobes and keeps its maps and
+//! parameters. It is one stem throughout: `satin` is a file of parameters in [`material`], a uniform block in
+//! `shaders_glsl/host`, functions in `lib`, a fragment shader in `pass` over what all share (`surface.glsl`), a file of
+//! [`render`] that binds the two, a twin, and a judge. What it does not use is not in its pipeline. glTF's own material
+//! extensions are a family, too: `layered`. Lobes are coupled by directional albedo, so that nothing that is worn gives more
+//! light than it gets; `classic = true` evaluates the formula of older engines instead, which does.
+//!
 //! # Conventions
 //! - World space is right-handed, Y up, metres, seconds. Angles are radians inside and degrees where a person writes
 //!   them. Names say space and unit: `normal_in_world`, `length_m`, `frame_ms`; matrices are `to_from_source`.
@@ -94,7 +102,9 @@
 //! Shells: Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". Strands: Marschner et al. 2003, "Light
 //! Scattering from Human Hair Fibers". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction through Rough
 //! Surfaces"; Turquin 2019, "Practical multiple scattering compensation for microfacet models". Files: Khronos 2021,
-//! "glTF 2.0 Specification". Each function cites its own.
+//! "glTF 2.0 Specification". Sheen: Zeltner, Burley & Chiang 2022, "Practical Multiple-Scattering Sheen Using Linearly
+//! Transformed Cosines". Films: Belcour & Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of
+//! Varying Iridescence". Glints: Kemppinen et al. 2025, "Glinty NDFs in Constant Time". Each function cites its own.
 
 #[allow(unsafe_code)]
 pub mod gpu;

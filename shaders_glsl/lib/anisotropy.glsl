@@ -38,10 +38,12 @@ vec2 anisotropic_albedo_terms(vec3 w, vec2 alpha) {
     float mu = w.z / max(sqrt(w.z * w.z + 2.0 * slope_squared / dot(alpha, alpha)), 1e-15);
     float white = ggx_albedo_terms(mu, sqrt(mean.x)).x * (1.0 + 0.04 * mean.y);
     // Fresnel follows the width along the view; normals that lean across it are met at a more grazing angle.
-    float sine_squared = max(dot(w.xy, w.xy), 1e-12);
-    float along_squared = slope_squared / sine_squared;
-    float across_squared = dot(across, across) / sine_squared;
-    float lean = max(across_squared - along_squared, 0.0) * inversesqrt(max(across_squared, 1e-12));
+    // Straight from the front there is no along: both are the mean.
+    float sine_squared = dot(w.xy, w.xy) + 1e-12;
+    float front = 0.5e-12 * dot(alpha, alpha);
+    float along_squared = (slope_squared + front) / sine_squared;
+    float across_squared = (dot(across, across) + front) / sine_squared;
+    float lean = max(across_squared - along_squared, 0.0) * inversesqrt(across_squared);
     float roughness = sqrt(sqrt(along_squared / (1.0 + 3.6 * lean)));
     float fresnel = ggx_albedo_terms(w.z * inversesqrt(1.0 + 0.15 * lean), roughness).y;
     return vec2(min(white, 1.0), fresnel);

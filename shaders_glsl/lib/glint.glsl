@@ -279,6 +279,13 @@ float glint_lobe(GlintFlakes flakes, float spread) {
     return sqrt(flakes.lobe * flakes.lobe + min(spread, 8.0) * cells * cells);
 }
 
+// log2 of the cells along the square of normals when a lobe of that radius, in cells of the finest square, is wider than
+// half a cell: so few cells that it fits in one. Tiles shrink with it, and still hold one flake that can flash.
+uint glint_fineness(GlintFlakes flakes, float lobe) {
+    float finer = max(ceil(log2(lobe) + 0.9999), 0.0);
+    return flakes.fineness - min(uint(finer), flakes.fineness);
+}
+
 // One flake that a pixel may show as a disc, with its normal.
 GlintDisc glint_disc(GlintFlakes flakes, GlintFootprint footprint, ivec2 place, uint chart) {
     GlintDisc disc;
@@ -332,8 +339,8 @@ vec3 glint_discs_flash(GlintFlakes flakes, GlintDiscs discs, vec2 square, float 
     return mix(vec3(glint_mean_tint(flakes)), sum, seen / lobe);
 }
 
-// The factor on the smooth lobe in a pixel that sees levels of tiles: 1 times the mean tint in the mean. Where the half
-// vector turns within the pixel by more than a lobe, as many lobes are averaged, as flakes of larger tiles are.
+// The factor on the smooth lobe in a pixel that sees levels of tiles: 1 times the mean tint in the mean. Lobes wider than
+// all normals make no difference.
 vec3 glint_tiles_flash(GlintFlakes flakes, GlintFootprint footprint, GlintLevels levels, GlintTiles near, GlintTiles far, vec2 square, float lobe) {
     float seen = min(lobe, 0.5);
     float share = seen / lobe;

@@ -42,12 +42,12 @@ void main() {
         discs = glint_discs(flakes, footprint, chart);
         cover = glint_cover(flakes, discs);
     }
-    GlintLevels levels = glint_levels(footprint.reach, flakes.fineness);
-    GlintTiles near;
-    GlintTiles far;
-    if (discs.apart < 1.0) {
-        near = glint_tiles(footprint, flakes.fineness, levels.first, chart);
-        if (levels.far > 0.0) { far = glint_tiles(footprint, flakes.fineness, levels.first + 1u, chart); }
+    GlintLevels flat_levels = glint_levels(footprint.reach, flakes.fineness);
+    GlintTiles flat_near;
+    GlintTiles flat_far;
+    if (discs.apart <= 0.0) {
+        flat_near = glint_tiles(footprint, flakes.fineness, flat_levels.first, chart);
+        if (flat_levels.far > 0.0) { flat_far = glint_tiles(footprint, flakes.fineness, flat_levels.first + 1u, chart); }
     }
     // The half vectors of the next pixels are made of these. Taken of the half vector itself, among the lights, derivatives
     // would miss the pixels that the triangle does not cover: lavapipe leaves them out of loops.
@@ -77,10 +77,23 @@ void main() {
             vec2 right = glint_square(ggx_half_vector(eye_right, light_right), alpha) - square;
             vec2 below = glint_square(ggx_half_vector(eye_below, light_below), alpha) - square;
             float lobe = glint_lobe(flakes, dot(right, right) + dot(below, below));
-            vec3 flash = vec3(0.0);
-            if (discs.apart > 0.0) { flash += discs.apart * glint_discs_flash(flakes, discs, square, lobe); }
-            if (discs.apart < 1.0) {
-                flash += (1.0 - discs.apart) * glint_tiles_flash(flakes, footprint, levels, near, far, square, lobe);
+            vec3 flash;
+            if (discs.apart > 0.0) {
+                flash = glint_discs_flash(flakes, discs, square, lobe);
+            } else {
+                GlintFlakes seen = flakes;
+                GlintLevels levels = flat_levels;
+                GlintTiles near = flat_near;
+                GlintTiles far = flat_far;
+                seen.fineness = glint_fineness(flakes, lobe);
+                if (seen.fineness < flakes.fineness) {
+                    // The cloth bends within the pixel: what it shows of normals is coarse, and tiles are others.
+                    lobe *= exp2(float(seen.fineness) - float(flakes.fineness));
+                    levels = glint_levels(footprint.reach, seen.fineness);
+                    near = glint_tiles(footprint, seen.fineness, levels.first, chart);
+                    if (levels.far > 0.0) { far = glint_tiles(footprint, seen.fineness, levels.first + 1u, chart); }
+                }
+                flash = glint_tiles_flash(seen, footprint, levels, near, far, square, lobe);
             }
             reflected += metal * smooth_lobe * flash;
         }

@@ -6,6 +6,7 @@
 mod cache;
 mod device;
 mod devices;
+mod families;
 mod inspect;
 mod output;
 mod presets;
@@ -25,7 +26,7 @@ use std::process::ExitCode;
 /// Exit status of a command line that cannot be right.
 const USAGE: u8 = 2;
 
-/// Renders fur with Vulkan, and says what that cost.
+/// Renders fur and cloth with Vulkan, and says what that cost.
 #[derive(Debug, Parser)]
 #[command(name = "vair", version, propagate_version = true)]
 struct Arguments {

@@ -1,6 +1,7 @@
 //! `vair profile`.
 
 use super::device::{DeviceArguments, check_validation};
+use super::families;
 use super::output::{self, milliseconds};
 use super::scene::SceneArguments;
 use anyhow::Result;
@@ -24,6 +25,10 @@ pub struct ProfileArguments {
     bench: u32,
     #[command(flatten)]
     device: DeviceArguments,
+    /// Compares the families of material instead: all surfaces of the scene, or of a quad that fills the picture, are
+    /// shaded by each in turn.
+    #[arg(long, conflicts_with = "trace")]
+    families: bool,
     /// Writes the timed frames for chrome://tracing or Perfetto.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
@@ -33,6 +38,9 @@ pub struct ProfileArguments {
 }
 
 pub fn run(arguments: &ProfileArguments) -> Result<()> {
+    if arguments.families {
+        return families::run(&arguments.scene, &arguments.device, arguments.bench, arguments.json);
+    }
     if let Some(path) = &arguments.trace {
         output::check_writable(path, "trace.json")?;
     }
@@ -94,7 +102,7 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
     })
 }
 
-fn spread(spread: Spread) -> Value {
+pub fn spread(spread: Spread) -> Value {
     json!({
         "median": milliseconds(spread.median), "min": milliseconds(spread.min), "max": milliseconds(spread.max),
         "count": spread.count,

@@ -99,6 +99,16 @@ enum TonemapChoice {
 impl SceneArguments {
     /// Loads the scene and puts look and preset on it.
     pub fn load(&self) -> Result<Scene> {
+        self.load_or(Scene::gallery)
+    }
+
+    /// No file is named.
+    pub fn is_embedded(&self) -> bool {
+        self.scene_file.is_none()
+    }
+
+    /// The same with another scene in the place of the gallery.
+    pub fn load_or(&self, embedded: impl FnOnce() -> Scene) -> Result<Scene> {
         if self.background == Background::Transparent && matches!(self.hdr_format, HdrChoice::B10g11r11) {
             let text = "--hdr-format b10g11r11 has no alpha; use rgba16f with --background transparent";
             return Err(UsageError(text).into());
@@ -106,7 +116,7 @@ impl SceneArguments {
         let limits = LoadOptions { allow_outside: self.allow_outside, memory_limit_bytes: self.memory_limit };
         let mut scene = match &self.scene_file {
             Some(path) => Scene::load(path, &limits)?,
-            None => Scene::gallery(),
+            None => embedded(),
         };
         if let Some(preset) = &self.preset {
             let (name, material) =

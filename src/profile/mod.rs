@@ -3,9 +3,11 @@
 //! [`Profile::measure`] starts a device twice, with an empty pipeline cache and with the one that the first start left,
 //! renders on the second, counts fragments, and keeps all frames for a [`Profile::trace`].
 
+mod family;
 mod spread;
 mod trace;
 
+pub use family::{FamilyCost, FamilyProfile};
 pub use spread::Spread;
 
 use crate::gpu::{CallCounts, DeviceInfo, GpuOptions, MemoryReport};

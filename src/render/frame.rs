@@ -1,7 +1,7 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, Moving, deform, draws, sway, tonemap};
+use super::pass::{Frame, Moving, deform, draws, order, sway, tonemap};
 use super::plan::{Draw, Pass};
 use super::targets::Targets;
 use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
@@ -20,7 +20,7 @@ pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, display: 
 /// The passes that draw the scene, in order, and what they draw.
 pub fn draw_lists<'a>(frame: &Frame<'a>) -> Vec<(Pass, Cow<'a, [Draw]>)> {
     let plan = &frame.shot.plan;
-    let far_to_near = draws::far_to_near(&plan.transparent, frame);
+    let far_to_near = order::far_to_near(&plan.transparent, frame);
     let lists = [
         (Pass::Opaque, Cow::from(&plan.opaque)),
         (Pass::Fur, Cow::from(&plan.fur)),

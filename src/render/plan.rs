@@ -14,7 +14,7 @@ use super::table::Table;
 use super::targets::Attachment;
 use crate::asset::{Asset, Primitive, Sampler, Topology};
 use crate::material::{AlphaMode, Fur, Standard};
-use crate::scene::{Instance, Scene};
+use crate::scene::{Instance, Scene, Side};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An image on the device: which one, and whether its bytes are sRGB-coded colour or data.
@@ -58,6 +58,17 @@ pub struct Draw {
     pub pipeline: usize,
     /// What is drawn.
     pub kind: DrawKind,
+    /// Faces that are drawn.
+    pub faces: Faces,
+}
+
+/// Sides of a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Faces {
+    /// Both at once.
+    Both,
+    /// One; blended draws of both are parted, as what lies behind must be blended first.
+    One(Side),
 }
 
 /// One stream of one instance that the deform pass writes.
@@ -227,7 +238,20 @@ impl Plan {
             DrawKind::Surface(_) => &mut self.opaque,
             DrawKind::Fur { .. } => &mut self.fur,
         };
-        list.push(Draw { instance: index, pipeline: index_of(&mut self.pipelines, spec), kind });
+        let is_two_sided = match kind {
+            DrawKind::Surface(surface) => scene.materials()[surface.material].standard.double_sided,
+            // Shells that face away carry the strands that stand out over the outline.
+            DrawKind::Fur { .. } => true,
+        };
+        let faces: &[Faces] = match is_two_sided {
+            true if spec.blend && geometry.topology == Topology::Triangles => {
+                &[Faces::One(Side::Back), Faces::One(Side::Front)]
+            }
+            true => &[Faces::Both],
+            false => &[Faces::One(Side::Front)],
+        };
+        let pipeline = index_of(&mut self.pipelines, spec);
+        list.extend(faces.iter().map(|&faces| Draw { instance: index, pipeline, kind, faces }));
     }
 
     /// Only what the pipeline samples: a map without UVs, tangents or light to show it stays off the device.

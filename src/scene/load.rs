@@ -3,6 +3,7 @@
 use super::SceneError;
 use super::animation::pose;
 use super::bounds::{object_scale, world_hull};
+use super::facing::Patches;
 use super::lint;
 use crate::asset::procedural::{SWATCH_MATERIAL, swatch};
 use crate::asset::{
@@ -16,7 +17,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// How large a mesh is in its rest pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +48,8 @@ pub struct Scene {
     sizes: Mutex<HashMap<usize, Size>>,
     /// Outlines by scene and clip, for the same reason.
     outlines: Mutex<HashMap<(usize, Option<usize>), Hull>>,
+    /// Patches by mesh and primitive, of what blends.
+    patches: Mutex<HashMap<(usize, usize), Arc<Patches>>>,
 }
 
 impl Scene {
@@ -132,7 +135,8 @@ impl Scene {
     }
 
     fn new(asset: Asset, materials: Vec<Material>) -> Self {
-        Self { id: new_id(), asset, materials, sizes: Mutex::default(), outlines: Mutex::default() }
+        let (sizes, outlines, patches) = Default::default();
+        Self { id: new_id(), asset, materials, sizes, outlines, patches }
     }
 
     /// What the file says, and the pictures that looks brought along.
@@ -223,6 +227,13 @@ impl Scene {
     pub fn middle_in_object(&self, instance: &Instance) -> Vec3 {
         let positions = &self.asset.meshes[instance.mesh].primitives[instance.primitive].vertices.positions;
         Aabb::around(positions.iter().copied()).center()
+    }
+
+    /// The patches of an instance's triangles.
+    pub fn patches(&self, instance: &Instance) -> Arc<Patches> {
+        let mut patches = self.patches.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Arc::new(Patches::of(&self.asset.meshes[instance.mesh].primitives[instance.primitive]));
+        patches.entry((instance.mesh, instance.primitive)).or_insert_with(make).clone()
     }
 }
 

@@ -9,6 +9,7 @@ mod camera;
 mod choice;
 mod deform;
 mod error;
+mod facing;
 mod instance;
 mod light;
 mod lint;
@@ -21,6 +22,7 @@ pub use camera::{Camera, CameraChoice, DEFAULT_FOV_DEG, DEFAULT_PHI_DEG, DEFAULT
 pub use choice::{find_animation, find_camera, find_scene, find_variant};
 pub use deform::deform;
 pub use error::SceneError;
+pub use facing::{Patches, Side};
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
 pub use light::{
     AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,

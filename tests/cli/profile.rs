@@ -3,6 +3,7 @@
 use crate::program::{SMALL, with_quad};
 use serde_json::Value;
 use std::collections::BTreeMap;
+use vair::profile::FamilyProfile;
 
 const FRAMES: usize = 3;
 
@@ -133,4 +134,24 @@ fn a_trace_that_cannot_be_written_fails_first() {
     let folder = with_quad();
     folder.fails(1, ["profile", "quad.gltf", "--trace", "nowhere/trace.json"], &["nowhere", "folder"]);
     folder.fails(2, ["profile", "quad.gltf", "--bench", "0"], &["--bench"]);
+}
+
+#[test]
+fn families_stand_beside_the_standard_surface() {
+    let folder = with_quad();
+    for scene in [&[][..], &["quad.gltf"]] {
+        let arguments = [&["profile", "--families", "--json", "--validate", "--bench", "3"], scene, &SMALL].concat();
+        let profile = folder.run(arguments).success().json();
+        let families = profile["families"].as_array().unwrap();
+        let kinds: Vec<_> = families.iter().map(|family| family["kind"].as_str().unwrap()).collect();
+        assert_eq!(kinds, FamilyProfile::kinds().collect::<Vec<_>>());
+        for family in families {
+            is_spread(&family["surface_ms"]);
+            is_spread(&family["to_standard"]);
+            assert!(number(&family["surface_ms"]["min"]) > 0.0, "{family}");
+        }
+        assert_eq!(families[0]["to_standard"]["median"], 1.0);
+    }
+    let text = folder.run(["profile", "--families", "--bench", "1", "--size", "16x9"]).success().text();
+    assert!(text.contains("laser") && text.contains("to standard"), "{text}");
 }

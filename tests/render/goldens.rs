@@ -1,6 +1,7 @@
 //! Pictures stay as they were when somebody looked at them.
 
 use crate::fuzz::fuzz_balls;
+use crate::glint::glint_balls;
 use crate::golden::{Limits, bless, compare, folder, is_pinned};
 use crate::headless::headless;
 use crate::laser::laser_balls;
@@ -31,10 +32,11 @@ const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mea
 pub const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
-pub const GOLDENS: [Golden; 6] = [
+pub const GOLDENS: [Golden; 7] = [
     Golden { name: "standard-balls", scene: balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "fuzz-balls", scene: fuzz_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "laser-balls", scene: laser_balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "glint-balls", scene: glint_balls, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-ball", scene: fur_ball, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-cube", scene: fur_cube, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "gallery", scene: Scene::gallery, camera: hero, pinned: SAME, other: HAIRY },

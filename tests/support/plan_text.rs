@@ -24,8 +24,8 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     }
     for (name, draws) in [("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)] {
         line(format!("{name} draws: {}", draws.len()));
-        for Draw { instance, pipeline, kind } in draws {
-            line(format!("  instance {instance}, pipeline {pipeline}, {kind:?}"));
+        for Draw { instance, pipeline, kind, faces } in draws {
+            line(format!("  instance {instance}, pipeline {pipeline}, {kind:?}, {faces:?}"));
         }
     }
     line("pipelines:".to_owned());

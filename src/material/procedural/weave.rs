@@ -101,7 +101,7 @@ pub fn denim() -> Image {
         let Threads { warp, weft } = TWILL.at(point);
         let uneven = octaves(point, IVec2::new(96, 6), 3);
         let indigo = Vec3::new(0.19, 0.28, 0.45) * (1.0 + 0.45 * uneven);
-        let white = Vec3::new(0.80, 0.80, 0.78) * (1.0 + 0.1 * uneven);
+        let white = Vec3::new(0.66, 0.68, 0.70) * (1.0 + 0.1 * uneven);
         let shade = 0.72 + 0.6 * warp.max(weft).max(0.0);
         shade * if warp > weft { indigo } else { white }
     })

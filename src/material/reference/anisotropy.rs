@@ -31,9 +31,12 @@ pub fn albedo_terms(fit: &Fit, w: DVec3, (ax, ay): (f64, f64)) -> (f64, f64) {
     // Slopes in units of the mean square width.
     let slope = (ax * w.x).hypot(ay * w.y) / ((ax * ax + ay * ay) / 2.0).sqrt();
     let (white, _) = fit.terms(w.z / w.z.hypot(slope).max(1e-15), mean.sqrt());
-    let sine = w.x.hypot(w.y).max(1e-6);
-    let (along, across) = ((ax * w.x).hypot(ay * w.y) / sine, (ay * w.x).hypot(ax * w.y) / sine);
-    let lean = (across * across - along * along).max(0.0) / across.max(1e-6);
+    // Straight from the front there is no along: both are the mean.
+    let front = 1e-6 * ((ax * ax + ay * ay) / 2.0).sqrt();
+    let sine = w.x.hypot(w.y).hypot(1e-6);
+    let along = (ax * w.x).hypot(ay * w.y).hypot(front) / sine;
+    let across = (ay * w.x).hypot(ax * w.y).hypot(front) / sine;
+    let lean = (across * across - along * along).max(0.0) / across;
     let (_, fresnel) = fit.terms(w.z / (1.0 + 0.15 * lean).sqrt(), (along / (1.0 + 3.6 * lean).sqrt()).sqrt());
     ((white * (1.0 + 0.04 * share)).min(1.0), fresnel)
 }

@@ -351,13 +351,26 @@ pub fn tiles_flash(flakes: &Flakes, footprint: &Footprint, levels: &[(f64, Tiles
     mean + seen / lobe * levels.iter().map(|(share, tiles)| *share * off_mean(tiles)).sum::<DVec3>()
 }
 
+/// log2 of the cells along the square of normals, so few that a lobe of that radius, in cells of the finest, fits in one.
+pub fn fineness(flakes: &Flakes, lobe: f64) -> u32 {
+    // Rounding must not halve a square whose lobe just fits.
+    (0..=flakes.fineness)
+        .rev()
+        .find(|fineness| lobe * 0.5f64.powi((flakes.fineness - fineness) as i32) <= 0.50004)
+        .unwrap_or(0)
+}
+
 /// The factor on the smooth lobe in a pixel; `spread` as in [`lobe`].
 pub fn flash(flakes: &Flakes, footprint: &Footprint, chart: u32, square: DVec2, spread: f64) -> DVec3 {
-    let (first, near, far) = levels(footprint.reach, flakes.fineness);
-    let tiles = |level| Tiles::new(footprint.cell, flakes.fineness, level, chart);
     let lobe = lobe(flakes, spread);
-    let of_tiles = tiles_flash(flakes, footprint, &[(near, tiles(first)), (far, tiles(first + 1))], square, lobe);
-    of_tiles.lerp(discs_flash(flakes, &discs(flakes, footprint, chart), square, lobe), apart(footprint))
+    if apart(footprint) > 0.0 {
+        return discs_flash(flakes, &discs(flakes, footprint, chart), square, lobe);
+    }
+    let seen = Flakes { fineness: fineness(flakes, lobe), ..*flakes };
+    let (first, near, far) = levels(footprint.reach, seen.fineness);
+    let tiles = |level| Tiles::new(footprint.cell, seen.fineness, level, chart);
+    let in_cells = lobe * 0.5f64.powi((flakes.fineness - seen.fineness) as i32);
+    tiles_flash(&seen, footprint, &[(near, tiles(first)), (far, tiles(first + 1))], square, in_cells)
 }
 
 /// The smooth lobe times the cosine of `l`: compensated GGX of metal of that colour.

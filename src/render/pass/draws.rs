@@ -5,17 +5,15 @@
 //! against, they can be a draw each, or vertices of their own in one draw.
 
 use super::Frame;
-use crate::asset::Topology;
 use crate::gpu::RenderPass;
 use crate::render::frame_data::{FRAME_SET, OBJECT_SET};
 use crate::render::options::ShellSubmission;
 use crate::render::pipeline::shader;
-use crate::render::plan::{Draw, DrawKind};
+use crate::render::plan::{Draw, DrawKind, Faces};
 use crate::render::stream::inputs;
-use crate::scene::{Instance, joint_matrices};
+use crate::scene::Side;
 use crate::shader::layout::ObjectDraw;
 use ash::vk::{CullModeFlags, FrontFace};
-use glam::Mat4;
 
 /// Records draws in their order.
 pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
@@ -35,12 +33,9 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         let instance = &plan.instances[draw.instance];
         let index = (instance.mesh, instance.primitive);
         let primitive = &scene.asset().meshes[index.0].primitives[index.1];
-        let (material, layers, double_sided) = match draw.kind {
-            DrawKind::Surface(surface) => {
-                (resources.surface(surface, spec), 1, scene.materials()[surface.material].standard.double_sided)
-            }
-            // Shells that face away carry the strands that stand out over the outline.
-            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers, true),
+        let (material, layers) = match draw.kind {
+            DrawKind::Surface(surface) => (resources.surface(surface, spec), 1),
+            DrawKind::Fur { layers, .. } => (&data.coat_groups[&(draw.instance, draw.pipeline)], layers),
         };
         pass.bind(1, material);
         for input in &vertex_inputs {
@@ -59,55 +54,25 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         };
         pass.push(&object);
         let front = if instance.mirrored { FrontFace::CLOCKWISE } else { FrontFace::COUNTER_CLOCKWISE };
-        let faces: &[CullModeFlags] = match double_sided {
-            // What lies behind must be blended first.
-            true if spec.blend && primitive.topology == Topology::Triangles => {
-                &[CullModeFlags::FRONT, CullModeFlags::BACK]
-            }
-            true => &[CullModeFlags::NONE],
-            false => &[CullModeFlags::BACK],
-        };
+        pass.cull(culled(draw.faces), front);
         let count = primitive.indices.len() as u32;
-        for face in faces {
-            pass.cull(*face, front);
-            match frame.options.shells.submission {
-                ShellSubmission::Draws if layers > 1 => {
-                    for shell in 0..layers {
-                        pass.push(&ObjectDraw { shell, ..object });
-                        pass.draw_indexed(count, 1, 0, 0);
-                    }
+        match frame.options.shells.submission {
+            ShellSubmission::Draws if layers > 1 => {
+                for shell in 0..layers {
+                    pass.push(&ObjectDraw { shell, ..object });
+                    pass.draw_indexed(count, 1, 0, 0);
                 }
-                ShellSubmission::Duplicated => pass.draw_indexed(count * layers, 1, 0, 0),
-                _ => pass.draw_indexed(count, layers, 0, 0),
             }
+            ShellSubmission::Duplicated => pass.draw_indexed(count * layers, 1, 0, 0),
+            _ => pass.draw_indexed(count, layers, 0, 0),
         }
     }
 }
 
-/// Draws from far to near, by the middle of each object's bounds.
-pub fn far_to_near(draws: &[Draw], frame: &Frame) -> Vec<Draw> {
-    let camera = &frame.shot.camera;
-    let depth = |draw: &Draw| {
-        let instance = &frame.shot.plan.instances[draw.instance];
-        let carrier = match instance.skin {
-            // The mean of its joints, as its vertices weigh them.
-            Some(skin) => mean_joint(frame, instance, skin),
-            None => instance.world_from_object,
-        };
-        let middle = carrier.transform_point3(frame.scene.middle_in_object(instance));
-        (middle - camera.eye_in_world()).dot(-camera.backwards_in_world())
-    };
-    let mut sorted: Vec<(f32, Draw)> = draws.iter().map(|draw| (depth(draw), *draw)).collect();
-    // A coat lies over its own skin: at equal depth the order of the plan holds, since the sort is stable.
-    sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
-    sorted.into_iter().map(|(_, draw)| draw).collect()
-}
-
-fn mean_joint(frame: &Frame, instance: &Instance, skin: usize) -> Mat4 {
-    let joints = joint_matrices(frame.scene.asset(), skin, &frame.shot.pose);
-    let primitive = &frame.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
-    let influences = &primitive.vertices.joints;
-    let total: f32 = influences.iter().map(|(_, weight)| weight).sum();
-    let sum = influences.iter().fold(Mat4::ZERO, |sum, &(joint, weight)| sum + joints[usize::from(joint)] * weight);
-    if total > 0.0 { sum * total.recip() } else { Mat4::IDENTITY }
+fn culled(faces: Faces) -> CullModeFlags {
+    match faces {
+        Faces::Both => CullModeFlags::NONE,
+        Faces::One(Side::Back) => CullModeFlags::FRONT,
+        Faces::One(Side::Front) => CullModeFlags::BACK,
+    }
 }

@@ -2,6 +2,7 @@
 
 pub mod deform;
 pub mod draws;
+pub mod order;
 pub mod sway;
 pub mod tonemap;
 

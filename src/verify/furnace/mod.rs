@@ -4,15 +4,18 @@
 //! Measured on the double-precision twins, which the device is checked against. The formulas of older engines are
 //! measured beside them, and shown as what they are.
 
+mod anisotropy;
 mod claim;
 mod classic;
 mod fur;
 mod fuzz;
+mod gauze;
 mod glint;
 mod laser;
 mod layered;
 mod light;
 mod quadrature;
+mod satin;
 mod sheen;
 mod standard;
 
@@ -100,6 +103,9 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 const FAMILIES: &[fn() -> Vec<Claim>] = &[
     standard::claims,
     fur::claims,
+    anisotropy::claims,
+    satin::claims,
+    gauze::claims,
     sheen::claims,
     fuzz::claims,
     laser::claims,

@@ -263,6 +263,12 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("glint_lobe", &join::<6>(&[&FLAKES, &[SPREAD]]), |given| {
         vec![glint::lobe(&flakes(given), given.number())]
     }),
+    // Log2 is off by 2^-21 between 1/2 and 2, and the lobe that just fits is where it steps.
+    Twin::new("glint_fineness", &join::<6>(&[&FLAKES, &[WIDE_LOBE]]), |given| {
+        vec![f64::from(glint::fineness(&flakes(given), given.number()))]
+    })
+    .limit(0.0, 0.0)
+    .rule(Rule::Stepped(8)),
     // A normal on the rim of the square may lie on the opposite one just as well.
     Twin::new("glint_disc", &join::<16>(&[&FLAKES, &FOOTPRINT, &[NEAR, CHART]]), |given| {
         let (flakes, footprint) = (flakes(given), footprint(given));

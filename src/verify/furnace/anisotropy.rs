@@ -1,0 +1,90 @@
+//! Claims of the anisotropic lobe that satin, gauze and layered metals share.
+
+use super::ALBEDO_LIMIT;
+use super::claim::{Claim, Input};
+use super::quadrature::{direction, over_hemisphere, over_reflections};
+use crate::material::reference::albedo::Fit;
+use crate::material::reference::anisotropy::Lobe;
+use crate::material::reference::ggx;
+use crate::material::reference::satin;
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+pub static FIT: LazyLock<Fit> = LazyLock::new(Fit::shipped);
+
+/// A grey lobe, from the first three inputs of every claim here.
+fn lobe(x: &[f64]) -> Lobe {
+    let f0 = DVec3::splat(x[0]);
+    Lobe { f0, f90: satin::f90(f0), alpha: ggx::anisotropic_alpha(x[1], x[2]) }
+}
+
+/// Share of white light that a lobe sends to `v`, by quadrature, times what `factor` says of each light.
+pub fn reflected(lobe: &Lobe, v: DVec3, factor: impl Fn(DVec3) -> f64) -> f64 {
+    let scattered = over_reflections(v, lobe.alpha, |l| lobe.single_scattering_times_cosine(v, l).x * factor(l));
+    lobe.compensation(&FIT, v).x * scattered
+}
+
+/// Everything that is promised of it.
+pub fn claims() -> Vec<Claim> {
+    let inputs = || {
+        vec![
+            Input::between("f0", (0.0, 1.0)),
+            Input::between("roughness", (0.0, 1.0)),
+            Input::between("anisotropy", (-1.0, 1.0)),
+            Input::cosine("cosine_to_eye"),
+            Input { corners: vec![0.0, 45.0, 90.0], ..Input::turn("along_to_eye_deg") },
+        ]
+    };
+    let claim = |property, limit, inputs, value| Claim {
+        material: "anisotropic lobe",
+        property,
+        classic: false,
+        limit: Some(limit),
+        inputs,
+        value,
+    };
+    vec![
+        claim(
+            "directional albedo over a white base",
+            ALBEDO_LIMIT,
+            inputs(),
+            Box::new(|x| {
+                let (lobe, v) = (lobe(x), direction(x[3], x[4].to_radians()));
+                let average = (1.0 - lobe.average_albedo(&FIT).x).max(1e-4);
+                let base = over_hemisphere(|l| l.z / PI * (1.0 - lobe.albedo(&FIT, l).x)) / average;
+                reflected(&lobe, v, |_| 1.0) + (1.0 - lobe.albedo(&FIT, v).x) * base
+            }),
+        ),
+        claim(
+            "single scattering, off reciprocal by",
+            1e-6,
+            [inputs(), vec![Input::cosine("cosine_to_light"), Input::turn("along_to_light_deg")]].concat(),
+            Box::new(|x| {
+                let (v, l) = (direction(x[3], x[4].to_radians()), direction(x[5], x[6].to_radians()));
+                let brdf = |v, l: DVec3| lobe(x).single_scattering_times_cosine(v, l).x / l.z;
+                let (there, back) = (brdf(v, l), brdf(l, v));
+                (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE)
+            }),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_albedo_by_the_geometric_mean_of_the_widths_fails() {
+        let mut claim = claims().remove(0);
+        assert!(claim.judge(0).pass);
+        // What an isotropic fit would say: too bright a compensation along the threads.
+        claim.value = Box::new(|x| {
+            let (lobe, v) = (lobe(x), direction(x[3], x[4].to_radians()));
+            let (white, _) = FIT.terms(x[3], (lobe.alpha.0 * lobe.alpha.1).sqrt().sqrt());
+            let scattered = over_reflections(v, lobe.alpha, |l| lobe.single_scattering_times_cosine(v, l).x);
+            scattered * (1.0 + x[0] * (1.0 - white) / white)
+        });
+        assert!(claim.judge(0).fails());
+    }
+}
