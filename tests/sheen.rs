@@ -204,8 +204,14 @@ fn cloth_furnace() {
         }
     }
     for material in ["cotton", "velvet"] {
-        for property in ["directional albedo", "white cloth, off 1 by", "radiance under white ambient light"] {
+        for property in [
+            "directional albedo",
+            "white cloth under ltc, off 1 by",
+            "white cloth under others, off 1 by",
+            "radiance under white ambient light",
+        ] {
             let property = claimed(material, property, 300);
+            println!("{property}");
             assert!(property.pass, "{property}");
         }
     }
@@ -236,7 +242,7 @@ fn lut_consistency() {
                 let v = direction(0.35, 0.0);
                 let returned = over_hemisphere(192, |l| lobe.times_cosine(v, l));
                 let entry = lobe.entry(0.35).albedo;
-                assert!((returned - entry).abs() <= 0.02, "{sheet:?} {factor} x {map}: {returned}, table {entry}");
+                assert!((returned - entry).abs() <= 0.03, "{sheet:?} {factor} x {map}: {returned}, table {entry}");
             }
         }
     }

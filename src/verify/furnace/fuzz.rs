@@ -2,7 +2,7 @@
 
 use super::claim::{Claim, Input};
 use super::quadrature::{direction, over_cosines, over_hemisphere};
-use super::sheen::{lobe, model_input};
+use super::sheen::{TABLE_ERROR, lobe, model_input};
 use super::{ALBEDO_LIMIT, light};
 use crate::material::reference::fuzz::{COTTON_F0, Surface};
 use crate::material::{Cotton, Standard, Velvet};
@@ -66,14 +66,12 @@ fn of_family(material: &'static str, made: Made, inputs: Vec<Input>) -> Vec<Clai
     let light = [Input::signed_cosine("cosine_to_light"), Input::turn("eye_to_light_deg")];
     let mut claims = vec![
         claim("directional albedo", ALBEDO_LIMIT, &[], Box::new(move |x| albedo(&made(x), x[0]))),
+        claim("white cloth under ltc, off 1 by", 1e-3, &[], Box::new(move |x| of_white(made, x, 0.0))),
         claim(
-            "white cloth, off 1 by",
-            1e-3,
+            "white cloth under others, off 1 by",
+            TABLE_ERROR,
             &[],
-            Box::new(move |x| {
-                let white = Surface { diffuse: DVec3::ONE, ..made(x) };
-                (albedo(&white, x[0]) - 1.0).abs()
-            }),
+            Box::new(move |x| of_white(made, x, x[2].max(1.0))),
         ),
         claim(
             "radiance under white ambient light",
@@ -97,6 +95,12 @@ fn of_family(material: &'static str, made: Made, inputs: Vec<Input>) -> Vec<Clai
         irradiance * (made(x).brdf_times_cosine(v, l) + made(x).ambient(x[0], 1.0))
     }));
     claims
+}
+
+/// How much of the light a white cloth under that model of fuzz loses or gains.
+fn of_white(made: Made, x: &[f64], model: f64) -> f64 {
+    let white = Surface { diffuse: DVec3::ONE, ..made(&[&x[..2], &[model], &x[3..]].concat()) };
+    (albedo(&white, x[0]) - 1.0).abs()
 }
 
 /// Share of white light that comes back to an eye at the cosine `mu`.
