@@ -8,8 +8,8 @@ mod anisotropy;
 mod claim;
 mod classic;
 mod fur;
-mod gauze;
 mod fuzz;
+mod gauze;
 mod glint;
 mod laser;
 mod layered;
@@ -103,6 +103,9 @@ fn as_map<S: Serializer>(inputs: &[(&'static str, f64)], serializer: S) -> Resul
 const FAMILIES: &[fn() -> Vec<Claim>] = &[
     standard::claims,
     fur::claims,
+    anisotropy::claims,
+    satin::claims,
+    gauze::claims,
     sheen::claims,
     fuzz::claims,
     laser::claims,
@@ -113,18 +116,6 @@ const FAMILIES: &[fn() -> Vec<Claim>] = &[
 
 /// Everything that is claimed.
 pub fn claims() -> Vec<Claim> {
-    [
-        standard::claims(),
-        fur::claims(),
-        anisotropy::claims(),
-        gauze::claims(),
-        laser::claims(),
-        satin::claims(),
-        classic::claims(),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
     FAMILIES.iter().flat_map(|claims| claims()).collect()
 }
 
