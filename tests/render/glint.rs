@@ -1,9 +1,11 @@
 //! Flakes are where their twin says, shine as it says, and zooming out changes their sum no more than chance does.
 
 use crate::headless::headless;
+use crate::scenes::three_lights;
 use crate::stage::{Stage, at, front_position, options, plain, quad};
 use crate::surface::AMBIENT;
 use glam::{DVec2, DVec3, Quat, Vec3, Vec4};
+use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::albedo::Fit;
 use vair::material::reference::ggx;
@@ -30,6 +32,36 @@ fn front(glint: Glint, half_m: f32, transform: Transform) -> Scene {
     }
     let mut scene = stage.scene();
     scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+    scene
+}
+
+/// Sequins, glitter and lurex.
+pub fn glint_balls() -> Scene {
+    let mut stage = Stage::default();
+    stage.parallel_camera(0.56, Vec3::new(0.0, 0.2, 1.0), Vec3::Y);
+    let flakes = |density, coverage, flake_color: [f32; 3]| Glint {
+        density,
+        coverage,
+        flake_color: Vec3::from(flake_color),
+        color_variation: 0.4,
+        ..Glint::default()
+    };
+    let kinds = [
+        flakes(9.0, 0.85, [0.9, 0.5, 0.6]),
+        flakes(13.0, 0.5, [0.95, 0.93, 0.88]),
+        flakes(18.0, 0.4, [1.0, 0.78, 0.35]),
+    ];
+    let mut dressed = Vec::new();
+    for (column, glint) in kinds.into_iter().enumerate() {
+        let material = stage.material(Material { base_color: Vec4::new(0.05, 0.02, 0.04, 1.0), ..plain() });
+        stage.object(sphere(0.28, 16), material, at(Vec3::X * 0.58 * (column as f32 - 1.0)));
+        dressed.push((material, glint));
+    }
+    three_lights(&mut stage);
+    let mut scene = stage.scene();
+    for (material, glint) in dressed {
+        scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+    }
     scene
 }
 
@@ -133,4 +165,44 @@ fn cloth_without_a_mask_fetches_nothing() {
     assert!(
         plan.pipelines[0].fragment == "glint.frag+TANGENT" && plan.pipelines[0].vertex == "standard.vert+TANGENT+REST"
     );
+}
+
+#[test]
+fn extremes_stay_finite() {
+    headless(|device| {
+        for (density, coverage, roughness, variation) in [
+            (0.0, 0.0, 0.0, 0.0),
+            (32.0, 0.9, 0.0, 1.0),
+            (0.0, 0.9, 1.0, 1.0),
+            (20.0, 0.9, 0.0, 0.0),
+            (32.0, 1e-7, 1.0, 1.0),
+        ] {
+            for microfacet_roughness in [0.0, 1.0] {
+                for intensity in [1e-38, 1.0, 1e38] {
+                    let glint = Glint {
+                        density,
+                        coverage,
+                        flake_roughness: roughness,
+                        microfacet_roughness,
+                        color_variation: variation,
+                        ..Glint::default()
+                    };
+                    let mut stage = Stage::front(0.6);
+                    let material = stage.material(Material { base_color: CLOTH, ..plain() });
+                    // Grazing at its rim.
+                    let mut ball = sphere(0.5, 8);
+                    ball.vertices.tangents.iter_mut().for_each(|tangent| *tangent = Vec4::ZERO);
+                    stage.object(ball, material, at(Vec3::ZERO));
+                    for to_light in [Vec3::Z, Vec3::NEG_Z, Vec3::X] {
+                        stage.light(LightKind::Directional, Vec3::splat(intensity), Vec3::ZERO, to_light);
+                    }
+                    let mut scene = stage.scene();
+                    scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+                    let picture = device.picture(&scene, &options([48, 48], 1));
+                    let is_finite = |index| picture.radiance(index % 48, index / 48).is_finite();
+                    assert!((0..48 * 48).all(is_finite), "{density} {coverage} {roughness} {intensity}");
+                }
+            }
+        }
+    });
 }

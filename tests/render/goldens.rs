@@ -2,6 +2,7 @@
 
 use crate::fuzz::fuzz_balls;
 use crate::gauze::gauze_balls;
+use crate::glint::glint_balls;
 use crate::golden::{Limits, bless, compare, folder, is_pinned};
 use crate::headless::headless;
 use crate::laser::laser_balls;
@@ -33,12 +34,13 @@ const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mea
 pub const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
-pub const GOLDENS: [Golden; 8] = [
+pub const GOLDENS: [Golden; 9] = [
     Golden { name: "standard-balls", scene: balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "fuzz-balls", scene: fuzz_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "laser-balls", scene: laser_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "satin-balls", scene: satin_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "gauze-balls", scene: gauze_balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "glint-balls", scene: glint_balls, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-ball", scene: fur_ball, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-cube", scene: fur_cube, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "gallery", scene: Scene::gallery, camera: hero, pinned: SAME, other: HAIRY },

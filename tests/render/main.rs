@@ -30,6 +30,7 @@ mod gauze;
 mod glint;
 mod goldens;
 mod laser;
+mod layered;
 mod lean;
 mod light;
 mod order;

@@ -67,6 +67,29 @@ pub fn claims() -> Vec<Claim> {
             }),
         ),
     ];
+    let both = vec![
+        Input::of::<Glint>("flake_color"),
+        Input::of::<Glint>("flake_roughness"),
+        Input::cosine("cosine_to_eye"),
+        Input::cosine("cosine_to_light"),
+        Input::turn("eye_to_light_deg"),
+    ];
+    claims.push(Claim {
+        limit: Some(1e-6),
+        ..claim(
+            "single scattering, off reciprocal by",
+            both,
+            Box::new(|x| {
+                // The factor of the flakes is one of the half vector alone.
+                let (v, l) = (direction(x[2], 0.0), direction(x[3], x[4].to_radians()));
+                let alpha = ggx::alpha_of_roughness(x[1]);
+                let lobe =
+                    |v, l: DVec3| glint::smooth_times_cosine(DVec3::splat(x[0]), DVec3::ONE, alpha, v, l).x / l.z;
+                let (there, back) = (lobe(v, l), lobe(l, v));
+                (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE)
+            }),
+        )
+    });
     claims.extend(light::claims("glint", false, &lit, |x, irradiance| {
         let (flakes, v, l) = (flakes(x), direction(x[3], 0.0), direction(x[4], x[5].to_radians()));
         let pixel = pixel(&flakes, x[6]);
