@@ -2,9 +2,11 @@
 
 use crate::headless::headless;
 use crate::limit::{all_hold, close, within};
+use crate::scenes::three_lights;
 use crate::stage::{NEAREST, Stage, at, options, plain, quad, unlit};
 use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
+use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::albedo::Fit;
 use vair::material::reference::anisotropy::Lobe;
@@ -176,4 +178,47 @@ fn opaque_gauze_does_not_blend_and_a_missing_map_is_not_bound() {
     assert!(sheer.textures.is_empty() && sheer.stand_ins.is_empty());
     let opaque = shot(&Gauze { weave_density: 0.0, ..Gauze::default() });
     assert!(opaque.transparent.is_empty() && opaque.opaque.len() == 1);
+}
+
+/// Gauze over a striped wall: sheer, dense, cleared and crossed above; below: mesh, crossing threads, a ball in a ball, and
+/// the classic look.
+pub fn gauze_balls() -> Scene {
+    let mut stage = Stage::default();
+    stage.parallel_camera(1.0, Vec3::new(0.0, 0.2, 1.0), Vec3::Y);
+    let stripes = stage.texture([2, 1], &[[30, 60, 90, 255], [220, 210, 180, 255]], NEAREST);
+    let stripes = vair::asset::TextureRef { scale: glam::Vec2::splat(16.0), ..stripes };
+    let wall = stage.material(Material { base_color_texture: Some(stripes), roughness: 0.9, ..plain() });
+    stage.object(quad(2.5, 2.5), wall, at(Vec3::NEG_Z * 2.0));
+    let texels: Vec<[u8; 4]> =
+        (0..64u8).map(|at| if at % 8 < 3 || at / 8 < 3 { [255; 4] } else { [0, 0, 0, 255] }).collect();
+    let mesh = Some(stage.texture([8, 8], &texels, NEAREST));
+    let of = |weave_density| Gauze { weave_density, specular_strength: 6.0, ..Gauze::default() };
+    let fine = Gauze { sampling_density: 8.0, ..of(0.0) };
+    let balls = [
+        of(20.0),
+        of(1.0),
+        Gauze { transmittance: 15.0, ..of(1.0) },
+        Gauze { weave: Weave::Crossed, ..of(4.0) },
+        Gauze { mesh_map: mesh, ..fine.clone() },
+        Gauze { thread_pattern: mesh, weave_density: 3.0, specular_strength: 20.0, ..fine },
+        of(4.0),
+        Gauze { classic: true, ..of(2.0) },
+        Gauze { scatter_color: Vec3::new(1.0, 0.5, 0.1), ..of(2.0) },
+    ];
+    let mut materials = Vec::new();
+    for index in 0..balls.len() {
+        let base_color = BASE_COLOR.extend(1.0);
+        let material = Material { base_color, roughness: ROUGHNESS, double_sided: true, ..plain() };
+        materials.push(stage.material(material));
+        // The last is within the seventh.
+        let (cell, radius_m) = if index == 8 { (6, 0.2) } else { (index, 0.37) };
+        let place = Vec3::new(0.78 * (cell % 4) as f32 - 1.17, 0.48 - 0.96 * (cell / 4) as f32, 0.0);
+        stage.object(sphere(radius_m, 12), materials[index], at(place));
+    }
+    three_lights(&mut stage);
+    let mut scene = stage.scene();
+    for (material, gauze) in materials.into_iter().zip(balls) {
+        scene.materials_mut()[material].cloth = Some(Cloth::Gauze(gauze));
+    }
+    scene
 }

@@ -1,10 +1,12 @@
 //! Pictures stay as they were when somebody looked at them.
 
 use crate::fuzz::fuzz_balls;
+use crate::gauze::gauze_balls;
 use crate::glint::glint_balls;
 use crate::golden::{Limits, bless, compare, folder, is_pinned};
 use crate::headless::headless;
 use crate::laser::laser_balls;
+use crate::satin::satin_balls;
 use crate::scenes::{balls, fur_ball, fur_cube};
 use std::path::Path;
 use vair::asset::procedural::GALLERY_CAMERA;
@@ -32,10 +34,12 @@ const SMOOTH: Limits = Limits { max_difference: 8, outlier_share: 0.02, flip_mea
 pub const HAIRY: Limits = Limits { max_difference: 24, outlier_share: 0.15, flip_mean: 0.05, flip_p99: 0.35 };
 
 /// Every golden, one line each.
-pub const GOLDENS: [Golden; 7] = [
+pub const GOLDENS: [Golden; 9] = [
     Golden { name: "standard-balls", scene: balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "fuzz-balls", scene: fuzz_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "laser-balls", scene: laser_balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "satin-balls", scene: satin_balls, camera: first, pinned: SAME, other: SMOOTH },
+    Golden { name: "gauze-balls", scene: gauze_balls, camera: first, pinned: SAME, other: SMOOTH },
     Golden { name: "glint-balls", scene: glint_balls, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-ball", scene: fur_ball, camera: first, pinned: SAME, other: HAIRY },
     Golden { name: "fur-cube", scene: fur_cube, camera: first, pinned: SAME, other: HAIRY },

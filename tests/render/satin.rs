@@ -2,9 +2,11 @@
 
 use crate::headless::headless;
 use crate::limit::{all_hold, close};
-use crate::stage::{Stage, options, plain, quad};
+use crate::scenes::three_lights;
+use crate::stage::{NEAREST, Stage, at, options, plain, quad};
 use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
+use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::albedo::Fit;
 use vair::material::reference::anisotropy::albedo_terms;
@@ -139,4 +141,36 @@ fn a_black_lobe_has_no_code() {
         [true, false, true]
     );
     assert_eq!(constants(Satin { specular_strength: 0.0, ..Satin::default() }), [false; 3]);
+}
+
+/// Silk above: stretched along, round, across and both ways; below: one lobe, gold thread, noise, and the classic look.
+pub fn satin_balls() -> Scene {
+    let mut stage = Stage::default();
+    stage.parallel_camera(1.0, Vec3::new(0.0, 0.2, 1.0), Vec3::Y);
+    let texels: Vec<[u8; 4]> = (0..64u8).map(|at| [(at.wrapping_mul(97) >> 1) + 127; 4]).collect();
+    let noise = Some(stage.texture([8, 8], &texels, NEAREST));
+    let of = |anisotropy| Satin { anisotropy, ..Satin::default() };
+    let gold = Vec3::new(1.0, 0.7, 0.3);
+    let balls = [
+        (0.0, of(0.8)),
+        (0.0, of(0.0)),
+        (0.0, of(-0.8)),
+        (0.0, Satin { two_way: true, ..of(0.9) }),
+        (0.0, Satin { secondary_color: Vec3::ZERO, ..of(1.0) }),
+        (1.0, Satin { specular_color: gold, specular_strength: 20.0, light_tint: 0.1, ..of(-0.5) }),
+        (0.0, Satin { specular_noise: noise, ..of(0.5) }),
+        (0.0, Satin { classic: true, specular_strength: 20.0, ..of(0.8) }),
+    ];
+    for (index, (metallic, _)) in balls.iter().enumerate() {
+        let base_color = BASE_COLOR.extend(1.0);
+        let material = stage.material(Material { base_color, metallic: *metallic, roughness: 0.45, ..plain() });
+        let place = Vec3::new(0.78 * (index % 4) as f32 - 1.17, 0.48 - 0.96 * (index / 4) as f32, 0.0);
+        stage.object(sphere(0.37, 12), material, at(place));
+    }
+    three_lights(&mut stage);
+    let mut scene = stage.scene();
+    for (index, (_, satin)) in balls.into_iter().enumerate() {
+        scene.materials_mut()[index].cloth = Some(Cloth::Satin(satin));
+    }
+    scene
 }
