@@ -199,7 +199,7 @@ fn extremes_stay_finite() {
                     let mut scene = stage.scene();
                     scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
                     let picture = device.picture(&scene, &options([48, 48], 1));
-                    let is_finite = |index| picture.radiance(index % 48, index / 48).is_finite();
+                    let is_finite = |index: u32| picture.radiance(index % 48, index / 48).is_finite();
                     assert!((0..48 * 48).all(is_finite), "{density} {coverage} {roughness} {intensity}");
                 }
             }
