@@ -20,7 +20,6 @@ pub fn shader(glint: &Glint, _: &Standard) -> ClothShader {
         variation: flakes.variation,
         fineness: flakes.fineness,
         mask_transform: transform(glint.mask_map),
-        ..Default::default()
     };
     ClothShader {
         file: "glint.frag",
