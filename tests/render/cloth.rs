@@ -8,7 +8,7 @@ use glam::{Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Primitive};
-use vair::material::{Cloth, Form, ImageName, TextureSource, Value};
+use vair::material::{Cloth, Form, ImageName, TextureSource, Value, Velvet};
 use vair::render::{FrameOptions, Picture, Shot};
 use vair::scene::Scene;
 use vair::shader::table;
@@ -45,6 +45,13 @@ fn every_dress() -> Vec<Cloth> {
         }
     }
     dresses
+}
+
+/// Those that light rules. The rim of classic velvet does not ask for any, which is its known defect and what `classic`
+/// asks for (fuzz.rs holds it to its twin).
+fn every_lit_dress() -> Vec<Cloth> {
+    let glows = |dress: &Cloth| matches!(dress, Cloth::Velvet(Velvet { classic: true, .. }));
+    every_dress().into_iter().filter(|dress| !glows(dress)).collect()
 }
 
 /// Balls in rows, each in a dress of its own, smooth, half rough and rough in turn; the last is half metal.
@@ -89,7 +96,7 @@ fn dress_at(dresses: &[Cloth], pixel: usize, picture: &Picture) -> String {
 
 #[test]
 fn unlit_zero() {
-    let dresses = every_dress();
+    let dresses = every_lit_dress();
     assert!(dresses.len() > 50);
     headless(|device| {
         let picture = shown(device, &dresses, Vec3::ZERO, 0.0);
@@ -117,7 +124,7 @@ fn every_end_of_every_parameter_is_finite_under_any_light() {
 
 #[test]
 fn twice_the_light_is_twice_the_radiance() {
-    let dresses = every_dress();
+    let dresses = every_lit_dress();
     headless(|device| {
         let single = shown(device, &dresses, Vec3::new(0.01, 0.02, 0.0), 0.01);
         let double = shown(device, &dresses, Vec3::new(0.02, 0.04, 0.0), 0.02);
