@@ -5,8 +5,8 @@
 // (reflectance of a plate). Both polarisations are followed. No film is a limit that needs no branch: the orders then
 // add up to the reflectance of the base alone.
 //
-// Against 801 wavelengths, over thickness 0 to 1200 nm, film_ior 1 to 2.5, base_f0 0 to 1 and all cosines: mean error
-// 0.0015, largest 0.02. Three orders and no tail reach 0.0024 and 0.13.
+// Against 801 wavelengths, for 20 000 films of 0 to 1200 nm, film_ior 1 to 2.5, base_f0 0 to 1 and all cosines: mean error
+// 0.0015, largest 0.015. Three orders and no tail reach 0.0024 and 0.13.
 #ifndef VAIR_FILM_GLSL
 #define VAIR_FILM_GLSL
 #include "ggx.glsl"
