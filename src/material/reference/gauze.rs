@@ -70,7 +70,7 @@ impl Weave {
     pub fn mean_opacity(self) -> f64 {
         let is_matted = matches!(self, Self::Matted(_));
         // Where threads close, the opacity of a grid has an edge.
-        let rule = gauss_legendre(if is_matted { 64 } else { 256 });
+        let rule = gauss_legendre(if is_matted { 64 } else { 128 });
         // A grid repeats itself every quarter turn and is even within it.
         let turns = if is_matted { &[(0.0, 1.0)][..] } else { &rule };
         let at = |mu: f64, turn: f64| {

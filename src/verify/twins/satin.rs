@@ -18,9 +18,7 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("satin_reflectance", &[UNIT, STRENGTH, UNIT], |given| {
         satin::reflectance(given.vec3(), given.number(), given.number()).to_array().to_vec()
     }),
-    Twin::new("satin_share", &[REFLECTANCE, REFLECTANCE], |given| vec![satin::share(given.vec3(), given.vec3())])
-        // Below the smallest normal number nothing is promised: such reflectances are none.
-        .used(|share| share.iter_mut().for_each(|share| *share = if share.is_finite() { *share } else { 0.0 })),
+    Twin::new("satin_share", &[REFLECTANCE, REFLECTANCE], |given| vec![satin::share(given.vec3(), given.vec3())]),
     Twin::new("satin_f0", &[REFLECTANCE, UNIT], |given| satin::f0(given.vec3(), given.number()).to_array().to_vec()),
     Twin::new("satin_f90", &[UNIT], |given| vec![satin::f90(given.vec3())]),
     Twin::new("satin_noise", &[UNIT], |given| vec![0.5 + 0.5 * given.number()]),
