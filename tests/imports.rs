@@ -15,7 +15,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
     ("oracle", &["math", "asset", "material", "scene"]),
     ("verify", &["math", "shader", "gpu", "material"]),
     ("profile", &["math", "gpu", "material", "scene", "render"]),
-    ("report", &["math", "asset", "gpu", "material", "scene", "render", "oracle", "profile"]),
+    ("report", &["math", "asset", "gpu", "material", "scene", "render", "oracle", "verify", "profile"]),
     // The one error for users who want one: made from every room's, seen by none.
     ("error", &["asset", "gpu", "material", "scene", "render", "oracle", "verify", "profile", "report"]),
     (

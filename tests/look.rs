@@ -125,19 +125,31 @@ fn mistakes_name_the_line_and_the_nearest_name() {
 
 #[test]
 fn every_preset_applies_and_stays_in_range() {
-    let expected = ["mink", "fox", "leopard", "sheepskin", "rabbit", "plush toy", "grass"];
-    assert_eq!(presets().iter().map(|preset| preset.name.as_str()).collect::<Vec<_>>(), expected);
+    let names: Vec<_> = presets().iter().map(|preset| preset.name.as_str()).collect();
+    for expected in "mink fox leopard sheepskin rabbit grass jersey denim linen flannel felt velvet corduroy organza \
+                     chiffon charmeuse taffeta brocade lurex sequin"
+        .split_whitespace()
+        .chain(["plush toy", "laser vinyl"])
+    {
+        assert!(names.contains(&expected), "{expected}");
+    }
     for preset in presets() {
         let (mut asset, mut materials) = scene(&["A", "B"]);
         let look = Look::preset(&preset.name.replace(' ', "-"), Some("B")).unwrap();
         look.apply(&mut asset, &mut materials, &mut no_images).unwrap();
         assert!(materials[0].fur.is_none());
-        let fur = materials[1].fur.clone().unwrap();
-        assert!(matches!(fur.length, Length::Relative(share) if (0.01..=0.1).contains(&share)), "{}", preset.name);
-        let mut clamped = fur.clone();
-        clamped.clamp();
-        assert_eq!(fur, clamped, "{}", preset.name);
-        assert!(preset.parameters().count() > 8 && preset.kind() == "fur");
+        assert!(materials[0].cloth.is_none() && preset.parameters().count() > 5, "{}", preset.name);
+        assert_eq!(materials[1].kind(), preset.kind(), "{}", preset.name);
+        let mut clamped = materials[1].clone();
+        clamped.standard.clamp();
+        if let Some(cloth) = &mut clamped.cloth {
+            cloth.clamp();
+        }
+        if let Some(fur) = &mut clamped.fur {
+            assert!(matches!(fur.length, Length::Relative(share) if (0.01..=0.1).contains(&share)), "{}", preset.name);
+            fur.clamp();
+        }
+        assert_eq!(materials[1], clamped, "{}", preset.name);
     }
     assert!(Look::preset("foxx", None).unwrap_err().to_string().contains("did you mean `fox`?"));
 }

@@ -70,6 +70,8 @@ pub struct DeviceInfo {
     pub pipeline_cache_uuid: [u8; 16],
     /// Largest side of a 2D image, texels.
     pub max_image_size: u32,
+    /// Textures, each with a sampler, that one shader can read.
+    pub max_textures_per_stage: u32,
     /// Sample counts that colour and depth targets both support, ascending; always has 1.
     pub samples: Vec<u32>,
     /// Sum of all memory heaps, bytes.
@@ -209,6 +211,8 @@ pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice, gi
         driver_uuid: ids.driver_uuid,
         pipeline_cache_uuid: properties.pipeline_cache_uuid,
         max_image_size: limits.max_image_dimension2_d,
+        max_textures_per_stage: (limits.max_per_stage_descriptor_sampled_images)
+            .min(limits.max_per_stage_descriptor_samplers),
         samples: (0..7).map(|bit| 1 << bit).filter(|count| sample_mask.as_raw() & count != 0).collect(),
         memory_bytes: memory.memory_heaps_as_slice().iter().map(|heap| heap.size).sum(),
         timestamp_period_ns: if timestamp_bits == 0 { 0.0 } else { f64::from(limits.timestamp_period) },

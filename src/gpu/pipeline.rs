@@ -3,7 +3,7 @@
 use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
 use super::interface::{Interface, SET_COUNT, specialize, stage_flags};
-use crate::shader::{Shader, Stage, VertexFormat};
+use crate::shader::{BindingKind, Shader, Stage, VertexFormat};
 use ash::vk;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -193,6 +193,12 @@ fn expect_stage(pipeline: &str, shader: &Shader, stage: Stage) -> Result<(), Gpu
     Err(GpuError::Interface { pipeline: pipeline.to_owned(), problem })
 }
 
+/// What is wrong where a shader reads more textures than the device lets one stage read.
+fn too_many_textures(shader: &Shader, limit: u32) -> Option<String> {
+    let count = shader.bindings.iter().filter(|binding| binding.kind == BindingKind::Texture).count();
+    (count > limit as usize).then(|| format!("{count} textures in one shader (reads at most {limit})"))
+}
+
 fn describe_shaders(kind: &str, name: &str, shaders: &[&'static Shader], constants: &[Vec<(u32, u32)>]) -> String {
     let mut text = format!("{kind} '{name}'\n");
     for (shader, given) in shaders.iter().zip(constants) {
@@ -272,6 +278,11 @@ impl Gpu {
         let context = self.context();
         if !context.info.samples.contains(&desc.samples) {
             let problem = format!("{} samples (has {:?})", desc.samples, context.info.samples);
+            return Err(GpuError::Unsupported { name: desc.name.to_owned(), problem });
+        }
+        if let Some(problem) =
+            desc.fragment.and_then(|shader| too_many_textures(shader, context.info.max_textures_per_stage))
+        {
             return Err(GpuError::Unsupported { name: desc.name.to_owned(), problem });
         }
         // Without `independentBlend`, which nothing here needs, all attachments have one state.
@@ -427,4 +438,18 @@ fn first(
     let failed = |result| GpuError::from_vk("creating pipeline", name, result);
     let pipelines = created.map_err(|(_, result)| failed(result))?;
     pipelines.first().copied().ok_or_else(|| failed(vk::Result::ERROR_UNKNOWN))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shader::table;
+
+    #[test]
+    fn more_textures_than_a_stage_reads_are_refused() {
+        let layered = table::ALL.iter().find(|shader| shader.name == "layered.frag+UV+TANGENT+MAPS").unwrap();
+        let problem = too_many_textures(layered, 16).unwrap();
+        assert!(problem.ends_with("textures in one shader (reads at most 16)"), "{problem}");
+        assert_eq!(too_many_textures(layered, 32), None);
+    }
 }

@@ -472,7 +472,7 @@ impl<C: Choice> Kind for OneOf<C> {
         C::named(text).ok_or_else(|| ParameterError::NotAChoice {
             key: parameter.name.to_owned(),
             found: text.clone(),
-            choices: C::NAMES.to_vec(),
+            choices: C::NAMES.into(),
             nearest: nearest(text, C::NAMES.iter().copied()).map(str::to_owned),
         })
     }

@@ -67,7 +67,7 @@ pub enum ParameterError {
         /// What it was given.
         found: String,
         /// What it takes.
-        choices: Vec<&'static str>,
+        choices: Box<[&'static str]>,
         /// The name that was probably meant.
         nearest: Option<String>,
     },

@@ -115,8 +115,11 @@ mod tests {
         for Procedural { name, .. } in ALL {
             let image = image(name).unwrap();
             assert_eq!(image.rgba.len(), (SIZE * SIZE * 4) as usize, "{name}");
-            let red = || image.rgba.iter().step_by(4);
-            assert!(red().max().unwrap() - red().min().unwrap() > 60, "{name} is flat");
+            let spread = |channel: usize| {
+                let values = || image.rgba.iter().skip(channel).step_by(4);
+                values().max().unwrap() - values().min().unwrap()
+            };
+            assert!((0..3).map(spread).max().unwrap() > 60, "{name} is flat");
         }
         assert_eq!(image("knit").unwrap().rgba, image("knit").unwrap().rgba);
         assert!(image("nothing").is_none());
