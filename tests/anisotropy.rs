@@ -44,7 +44,8 @@ fn points() -> impl Iterator<Item = ((f64, f64), DVec3)> {
     let pairs = widths.into_iter().flat_map(move |ax| widths.map(|ay| (ax, ay)));
     pairs.flat_map(|alpha| {
         let directions = [1e-3, 0.01, 0.1, 0.2, 0.4, 0.7, 1.0].into_iter();
-        directions.flat_map(move |mu| (0..=4).map(move |turn| (alpha, direction(mu, f64::from(turn) * PI / 8.0))))
+        let turns = [0.0, 22.5, 45.0, 67.5, 78.0, 84.0, 87.0, 90.0f64];
+        directions.flat_map(move |mu| turns.map(move |turn| (alpha, direction(mu, turn.to_radians()))))
     })
 }
 

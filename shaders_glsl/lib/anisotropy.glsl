@@ -46,6 +46,10 @@ vec2 anisotropic_albedo_terms(vec3 w, vec2 alpha) {
     float lean = max(across_squared - along_squared, 0.0) * inversesqrt(across_squared);
     float roughness = sqrt(sqrt(along_squared / (1.0 + 3.6 * lean)));
     float fresnel = ggx_albedo_terms(w.z * inversesqrt(1.0 + 0.15 * lean), roughness).y;
+    // Widths more than ten times apart send more to a grazing eye across the long one than any isotropic width does.
+    float flatness = max(1.0 - 10.0 * min(alpha.x, alpha.y) / max(alpha.x, alpha.y), 0.0);
+    float leaning = lean * inversesqrt(across_squared) * 0.03 / (0.03 + w.z);
+    fresnel += (1.0 - fresnel) * 0.25 * flatness * leaning;
     return vec2(min(white, 1.0), fresnel);
 }
 

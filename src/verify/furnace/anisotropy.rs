@@ -33,7 +33,7 @@ pub fn claims() -> Vec<Claim> {
             Input::between("roughness", (0.0, 1.0)),
             Input::between("anisotropy", (-1.0, 1.0)),
             Input::cosine("cosine_to_eye"),
-            Input { corners: vec![0.0, 45.0, 90.0], ..Input::turn("along_to_eye_deg") },
+            Input { corners: vec![0.0, 45.0, 83.0, 90.0], ..Input::turn("along_to_eye_deg") },
         ]
     };
     let claim = |property, limit, inputs, value| Claim {

@@ -2,7 +2,7 @@
 
 use super::ALBEDO_LIMIT;
 use super::claim::{Claim, Input};
-use super::quadrature::{direction, over_hemisphere};
+use super::quadrature::{direction, over_cosines_finely, over_hemisphere};
 use crate::material::reference::sheen::{self, Lobe};
 use crate::material::{Cotton, Sheen, SheenModel, SheenTable};
 use glam::DVec3;
@@ -51,7 +51,7 @@ pub fn claims() -> Vec<Claim> {
     let of_normals = |sheet, ndf: fn(DVec3, f64) -> f64| -> super::Measure {
         Box::new(move |x| {
             let alpha = sheen::alpha_of_roughness(sheet, x[0]);
-            (over_hemisphere(|h| ndf(h, alpha) * h.z) - 1.0).abs()
+            (over_cosines_finely(|mu| ndf(direction(mu, 0.0), alpha) * mu) - 1.0).abs()
         })
     };
     vec![
