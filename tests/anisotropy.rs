@@ -66,7 +66,7 @@ fn ggx_furnace_ms_of_anisotropic_lobes() {
             least = least.min(off);
         }
     }
-    assert!(least >= -0.115, "what the header of anisotropy.glsl says: {least}");
+    assert!(least >= -0.21, "what the header of anisotropy.glsl says: {least}");
     assert!(most >= -1e-3, "the fit touches the truth somewhere: {most}");
 }
 
@@ -82,7 +82,7 @@ fn the_average_is_at_most_a_little_too_small() {
             };
             let average: f64 = rule.iter().map(|&(mu, weight)| weight * 2.0 * mu * ring(mu)).sum();
             let off = average - lobe.average_albedo(&fit).x;
-            assert!((-2e-4..=0.013).contains(&off), "{ax} {ay} F0 {f0}: {average} less {off}");
+            assert!((-2e-4..=0.016).contains(&off), "{ax} {ay} F0 {f0}: {average} less {off}");
         }
     }
 }

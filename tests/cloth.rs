@@ -121,7 +121,7 @@ fn a_map_without_coordinates_and_a_grey_normal_map_are_warned_of() {
     let warnings = &scene.asset().warnings;
     let warned = |of: &[&str]| warnings.iter().filter(|text| of.iter().all(|part| text.contains(part))).count();
     assert_eq!(
-        warned(&["no texture coordinates", "`normal_texture`, `specular_noise`", "`swatch`"]),
+        warned(&["no texture coordinates", "`normal_texture` (TEXCOORD_0), `specular_noise` (TEXCOORD_0)", "`swatch`"]),
         1,
         "{warnings:?}"
     );

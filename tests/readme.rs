@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use vair::material::{KINDS, Parameter, presets};
+use vair::material::{KINDS, Parameter, presets, procedural};
 
 const COLUMNS: usize = 4;
 
@@ -28,6 +28,13 @@ fn gallery() -> String {
         writeln!(text, "| {} |", cells.join(" | ")).unwrap();
     }
     text
+}
+
+/// One folded list of the images that are made by formula.
+fn images() -> String {
+    let lines = procedural::ALL.iter().map(|image| format!("| `{}` | {} |\n", image.name, image.help));
+    let table: String = lines.collect();
+    format!("<details><summary>Images by formula</summary>\n\n| name | |\n|---|---|\n{table}\n</details>\n")
 }
 
 /// One folded table a kind of material.
@@ -67,7 +74,7 @@ fn tables_are_those_of_the_declarations() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let readme = std::fs::read_to_string(&path).unwrap();
     let mut made = readme.clone();
-    for (mark, table) in [("presets", gallery()), ("parameters", parameters())] {
+    for (mark, table) in [("procedural", images()), ("presets", gallery()), ("parameters", parameters())] {
         let (begin, end) = (format!("<!-- {mark}: begin -->\n"), format!("<!-- {mark}: end -->"));
         let start = made.find(&begin).unwrap_or_else(|| panic!("README.md has no `{}`", begin.trim())) + begin.len();
         let stop = start + made[start..].find(&end).unwrap_or_else(|| panic!("README.md has no `{end}`"));

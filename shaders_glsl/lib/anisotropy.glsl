@@ -4,7 +4,7 @@
 // Sources: as ggx.glsl; Turquin 2019 (compensation). The albedo is our own mapping onto the isotropic fits. What Smith's
 // masking asks of a direction is its slope in units of the widths: that is kept, on a lobe of the width that loses as
 // much seen from the front. Against quadrature over widths 1e-3..1, mu 1e-3..1 and all azimuths: never more than 0.1 %
-// below the truth, as that would gain energy; at most 0.11 above it, where the widest lobe is seen grazing and across.
+// below the truth, as that would gain energy; at most 0.21 above it, where widths ten times apart and more are seen grazing and across.
 #ifndef VAIR_ANISOTROPY_GLSL
 #define VAIR_ANISOTROPY_GLSL
 #include "ggx.glsl"
@@ -49,11 +49,11 @@ vec2 anisotropic_albedo_terms(vec3 w, vec2 alpha) {
     // Widths more than ten times apart send more to a grazing eye across the long one than any isotropic width does.
     float flatness = max(1.0 - 10.0 * min(alpha.x, alpha.y) / max(alpha.x, alpha.y), 0.0);
     float leaning = lean * inversesqrt(across_squared) * 0.03 / (0.03 + w.z);
-    fresnel += (1.0 - fresnel) * 0.25 * flatness * leaning;
+    fresnel += (1.0 - fresnel) * 0.27 * flatness * leaning;
     return vec2(min(white, 1.0), fresnel);
 }
 
-// Cosine-weighted averages of (E1 Q, E1, Q); the albedo that follows is never too large, and at most 0.013 too small.
+// Cosine-weighted averages of (E1 Q, E1, Q); the albedo that follows is never too large, and at most 0.016 too small.
 vec3 anisotropic_average_terms(vec2 alpha) {
     return ggx_average_terms(sqrt(anisotropic_mean(alpha).x));
 }

@@ -26,6 +26,11 @@ vec3 satin_f0(vec3 reflectance, float share) {
     return min(reflectance / max(share, 1e-6), 1.0);
 }
 
+// What a lobe takes of a metal's own reflectance: all of it from the reflectance of plain plastic on, none where it is black.
+vec3 satin_metal(vec3 reflectance) {
+    return min(reflectance * 25.0, 1.0);
+}
+
 // Reflectance at grazing incidence: a black lobe has none.
 float satin_f90(vec3 f0) {
     return min(50.0 * satin_largest(f0), 1.0);

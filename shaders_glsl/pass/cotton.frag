@@ -64,7 +64,9 @@ void main() {
     if (CLASSIC) {
         reflected = classic_radiance(f, sheen_color, sheen_roughness);
     } else {
-        reflected = fuzz_radiance(f, SHEEN, HAS_FIBRE, f.base_color, vec3(0.04), sheen_color, sheen_roughness);
+        vec3 diffuse = f.base_color * (1.0 - f.metallic);
+        vec3 f0 = 0.04 + (f.base_color - 0.04) * f.metallic;
+        reflected = fuzz_radiance(f, SHEEN, HAS_FIBRE, diffuse, f0, sheen_color, sheen_roughness);
     }
     surface_write(f, reflected, surface_opacity(color.a));
     surface_cover(mask);

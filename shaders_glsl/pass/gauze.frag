@@ -51,7 +51,7 @@ Threads threads() {
         vec2 uv = uv_transformed(gauze.thread_pattern_transform, uv_sets.xy, uv_sets.zw);
         float texel = texture(sampler2D(thread_pattern_map, thread_pattern_sampler), uv).r;
         // Wide enough that a pattern too fine for the pixel, seen as its mean, becomes a share of both.
-        t.turned = clamp((texel - gauze.thread_threshold) * 4.0 + 0.5, 0.0, 1.0);
+        t.turned = clamp((texel - 0.75 * gauze.thread_threshold) * 4.0, 0.0, 1.0);
     }
 #endif
     return t;
@@ -77,7 +77,8 @@ vec3 reflected(SurfaceFragment f, Threads t, float depth) {
     vec3 average = vec3(0.0);
     if (HIGHLIGHT) {
         vec2 alpha = ggx_anisotropic_alpha(f.roughness, gauze.anisotropy);
-        vec3 f0 = mix(satin_f0(gauze.specular * t.noise, 1.0), f.base_color, f.metallic);
+        vec3 reflectance = gauze.specular * t.noise;
+        vec3 f0 = mix(satin_f0(reflectance, 1.0), f.base_color * satin_metal(reflectance), f.metallic);
         float f90 = satin_f90(f0);
         warp = anisotropic_lobe(v, alpha, f0, f90);
         albedo = anisotropic_lobe_albedo(warp, v);

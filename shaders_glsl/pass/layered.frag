@@ -89,8 +89,6 @@ void anisotropic_streak(SurfaceFragment f, inout LayeredFragment m) {
         strength *= map.b;
     }
 #endif
-    // The frame's bitangent turns with the normal; the streak stays where it is.
-    if (DOUBLE_SIDED && !gl_FrontFacing) { m.streak.y = -m.streak.y; }
     m.widths = layered_widths(f.roughness, strength);
 }
 

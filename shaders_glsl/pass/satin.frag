@@ -30,7 +30,7 @@ Weave weave(vec3 v, float roughness, vec3 reflectance, vec3 other, vec3 base_col
     Weave w;
     vec2 alpha = ggx_anisotropic_alpha(min(roughness, 1.0), satin.anisotropy);
     w.share = satin_share(reflectance, other);
-    vec3 f0 = mix(satin_f0(reflectance, w.share), base_color, metallic);
+    vec3 f0 = mix(satin_f0(reflectance, w.share), base_color * satin_metal(reflectance), metallic);
     float f90 = satin_f90(f0);
     w.warp = anisotropic_lobe(v, alpha, f0, f90);
     if (TWO_WAY) { w.weft = anisotropic_lobe(v, alpha.yx, f0, f90); }

@@ -151,7 +151,7 @@ struct SurfaceFragment {
     float occlusion;           // share of the ambient light that arrives
     vec3 emissive;             // linear radiance
     vec3 normal_in_world;      // interpolated, turned to the side that is seen; the maps have not bent it
-    mat3 world_from_tangent;   // columns: tangent (along u, where CLOTH), bitangent, shading normal
+    mat3 world_from_tangent;   // columns: tangent, bitangent, shading normal; CLOTH: along u and v, on both sides
     vec3 eye_in_tangent;       // unit, z >= 1e-3
 };
 
@@ -186,7 +186,10 @@ SurfaceFragment surface_fragment(vec4 color) {
         normal = -normal;
     }
 #ifdef CLOTH
-    f.world_from_tangent = direction_frame_along(normal, tangent_in_world.xyz, tangent_in_world.w);
+    // Threads run the same way on both sides: the bitangent does not turn with the normal.
+    bool turned = DOUBLE_SIDED && !gl_FrontFacing;
+    f.world_from_tangent =
+        direction_frame_along(normal, tangent_in_world.xyz, turned ? -tangent_in_world.w : tangent_in_world.w);
 #else
     f.world_from_tangent = direction_frame(normal);
 #endif

@@ -385,8 +385,7 @@ pub struct Map;
 
 impl Kind for Map {
     type Stored = Option<TextureRef>;
-    const SYNTAX: &'static str =
-        "\"file.png\" or { file = \"file.png\", tiling = [1, 1], offset = [0, 0], rotation = 0, uv_set = 0 }";
+    const SYNTAX: &'static str = "\"file.png\", \"none\", or { file = \"file.png\" or procedural = \"NAME\", tiling = [1, 1], offset = [0, 0], rotation = 0, uv_set = 0 }";
     const FORM: Form = Form::Map;
 
     fn read(
@@ -394,7 +393,10 @@ impl Kind for Map {
         parameter: &Parameter,
         textures: &mut dyn TextureSource,
     ) -> Result<Self::Stored, ParameterError> {
-        texture::read(value, parameter, textures).map(Some)
+        match value {
+            Value::Text(text) if text == "none" => Ok(None),
+            _ => texture::read(value, parameter, textures).map(Some),
+        }
     }
 
     fn show(_: &Self::Stored) -> String {

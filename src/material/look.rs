@@ -125,6 +125,10 @@ impl Section {
             if preset.section.kind.is_some() {
                 (material.fur, material.cloth) = (None, None);
             }
+            // Cloth brings its own colour and shine, where a coat shows the surface's.
+            if preset.section.kind.is_some_and(|kind| Cloth::KINDS.contains(&kind)) {
+                material.standard = material.standard.undyed();
+            }
             preset.section.apply(material, textures)?;
         }
         if let Some(kind) = self.kind.filter(|kind| *kind != material.kind()) {
@@ -133,12 +137,13 @@ impl Section {
         }
         for entry in &self.entries {
             let Entry { key, value, .. } = entry;
+            let kind = material.kind();
             let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
             let done = match (&mut material.fur, &mut material.cloth) {
                 (Some(fur), _) if Fur::parameter(key).is_some() => fur.set(key, value, textures),
                 (None, Some(cloth)) if has(cloth.parameters()) => cloth.set(key, value, textures),
                 _ if Standard::parameter(key).is_some() => material.standard.set(key, value, textures),
-                _ => Err(foreign(key)),
+                _ => Err(foreign(key, kind)),
             };
             done.map_err(|problem| entry.error(problem))?;
         }
@@ -218,11 +223,11 @@ fn find_preset(entry: &Entry) -> Result<&'static preset::Preset, MaterialError> 
 }
 
 /// The error for a key that neither the material's kind nor the surface has.
-fn foreign(key: &str) -> ParameterError {
+fn foreign(key: &str, kind: &'static str) -> ParameterError {
     let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
     let kinds: Vec<_> = KINDS.iter().filter(|(_, list)| has(list)).map(|(kind, _)| *kind).collect();
     if !kinds.is_empty() {
-        return ParameterError::OfOtherKind { key: key.to_owned(), kinds };
+        return ParameterError::OfOtherKind { key: key.to_owned(), kinds, kind };
     }
     let names = KINDS.iter().flat_map(|(_, list)| list.iter().map(|parameter| parameter.name));
     let names = names.chain(["preset", "kind", "surface"]);

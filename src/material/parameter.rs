@@ -42,12 +42,14 @@ pub enum ParameterError {
         nearest: Option<String>,
     },
     /// A name of other kinds of material.
-    #[error("`{key}` is a key of {}: add kind = \"{}\" or a preset of that kind", kinds.join(", "), kinds.join("\" or \""))]
+    #[error("`{key}` is a key of {}, and this material is {kind}: choose that kind or a preset of it", kinds.join(", "))]
     OfOtherKind {
         /// As written.
         key: String,
         /// The kinds that have it.
         kinds: Vec<&'static str>,
+        /// What the material is.
+        kind: &'static str,
     },
     /// The wrong type of value.
     #[error("`{key}` is {found}, but takes {expected}")]

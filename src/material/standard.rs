@@ -40,6 +40,21 @@ crate::parameters! {
     }
 }
 
+impl Standard {
+    /// The same without colour, metal, roughness and their textures; its relief, occlusion, opacity and sides stay.
+    pub fn undyed(&self) -> Self {
+        let Self { base_color, roughness, metallic, .. } = Self::default();
+        Self {
+            base_color: base_color.with_w(self.base_color.w),
+            base_color_texture: None,
+            roughness,
+            metallic,
+            metallic_roughness_texture: None,
+            ..self.clone()
+        }
+    }
+}
+
 impl From<&asset::Material> for Standard {
     fn from(material: &asset::Material) -> Self {
         let (alpha_mode, alpha_cutoff) = match material.alpha_mode {

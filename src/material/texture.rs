@@ -57,6 +57,12 @@ pub(crate) fn read(
         }
         _ => return Err(wrong_type(parameter, value)),
     }
+    if let Value::Table(entries) = value {
+        let has = |wanted: &str| entries.iter().any(|(key, _)| key == wanted);
+        if has("file") && has("procedural") {
+            return Err(fail("a texture has `file` or `procedural`, not both".to_owned()));
+        }
+    }
     let name = name.ok_or_else(|| fail("a texture needs `file` or `procedural`".to_owned()))?;
     reference.texture = textures.texture(&name).map_err(fail)?;
     Ok(reference)
@@ -109,7 +115,8 @@ impl TextureSource for Appended<'_> {
             ImageName::File(file) => (self.read_image)(file)?,
             ImageName::Procedural(pattern) => procedural::image(pattern).ok_or_else(|| {
                 let near = nearest(pattern, procedural::names()).map(|name| format!(", did you mean `{name}`?"));
-                format!("unknown procedural image `{pattern}`{}", near.unwrap_or_default())
+                let known = || format!("; there are {}", procedural::names().collect::<Vec<_>>().join(", "));
+                format!("unknown procedural image `{pattern}`{}", near.unwrap_or_else(known))
             })?,
         };
         let texture = self.textures.len();

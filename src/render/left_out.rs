@@ -65,6 +65,11 @@ fn family(shader: &str) -> &str {
     shader.split('.').next().unwrap_or(shader)
 }
 
+/// `standard.frag` of `standard.frag+UV`.
+fn file(shader: &str) -> &str {
+    shader.split('+').next().unwrap_or(shader)
+}
+
 #[derive(Default)]
 struct List(Vec<LeftOut>);
 
@@ -86,8 +91,10 @@ impl List {
                 let bindings = shaders.filter(|shader| family(shader.name) == name).flat_map(|shader| shader.bindings);
                 bindings.map(|binding| (binding.set, binding.binding, binding.name)).collect()
             };
-            // No frame draws what counts, so that none can leave it out.
-            let mut drawn = table::ALL.iter().copied().filter(|shader| !shader.name.contains("+COUNT"));
+            // No frame draws what counts, so that none can leave it out; and what no material is made of is missed by none.
+            let is_used = |shader: &Shader| used.iter().any(|used| file(used.name) == file(shader.name));
+            let mut drawn =
+                table::ALL.iter().copied().filter(|shader| !shader.name.contains("+COUNT") && is_used(shader));
             let (all, bound) = (names(&mut drawn), names(&mut used.iter().copied()));
             let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
             // A map stands for its sampler, too.

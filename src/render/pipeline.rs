@@ -127,7 +127,7 @@ impl PipelineSpec {
         let blends = cloth.is_some_and(|cloth| cloth.blends);
         let blend = standard.alpha_mode == AlphaMode::Blend || blends;
 
-        let rest = cloth.is_some_and(ClothShader::reads_rest);
+        let rest = cloth.is_some_and(|cloth| cloth.reads_rest);
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("REST", rest), ("COLOR", color)];
         let fragment_defines = [
             ("UNLIT", unlit),
@@ -209,9 +209,14 @@ impl PipelineSpec {
         let fragment = permutation(file, &[("COUNT", true)].into_iter().chain(kept).collect::<Vec<_>>());
         let stages = [shader(&self.vertex), shader(&fragment)];
         let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
+        // What blends leaves no depth behind, whatever opacity does: gauze blends in every mode.
+        let of_blended = |(name, value): (&'static str, u32)| match name {
+            "ALPHA_MODE" if self.blend => (name, alpha_constant(AlphaMode::Blend)),
+            _ => (name, value),
+        };
         Self {
             vertex: self.vertex.clone(),
-            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().collect(),
+            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().map(of_blended).collect(),
             fragment,
             depth: DepthUse::None,
             color_format: Self::COUNTING_FORMAT,

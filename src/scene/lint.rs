@@ -4,25 +4,37 @@
 use crate::asset::{Asset, Image, TextureRef};
 use crate::material::{Family, Material};
 
-/// Adds a warning, once, for each map that its mesh has no texture coordinates for, and for each normal map that is grey.
+/// Adds a warning, once, for each map that its mesh has no texture coordinates for, for each normal map that is grey, and
+/// for cloth that nothing lights.
 pub(super) fn maps(asset: &mut Asset, materials: &[Material]) {
     let mut warnings = Vec::new();
     for (m, mesh) in asset.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
-            let material = &materials[primitive.material];
-            // The maps of a coat are projected onto what has no coordinates.
-            let lacking = textures(material).filter(|(_, map)| map.uv_set as usize >= primitive.vertices.uv_sets.len());
-            let names: Vec<_> = lacking.map(|(name, _)| format!("`{name}`")).collect();
-            if !names.is_empty() {
-                let (names, material) = (names.join(", "), &material.name);
-                warnings.push(format!(
-                    "meshes[{m}].primitives[{p}]: has no texture coordinates for {names} of material `{material}`, which are \
-                     not shown; unwrap the mesh"
-                ));
+            let variants = primitive.variant_materials.iter().map(|&(_, material)| material);
+            for material in std::iter::once(primitive.material).chain(variants).map(|index| &materials[index]) {
+                // The maps of a coat are projected onto what has no coordinates.
+                let sets = primitive.vertices.uv_sets.len();
+                let lacking = textures(material).filter(|(_, map)| map.uv_set as usize >= sets);
+                let names: Vec<_> = lacking.map(|(name, map)| format!("`{name}` (TEXCOORD_{})", map.uv_set)).collect();
+                if !names.is_empty() {
+                    let (names, material) = (names.join(", "), &material.name);
+                    let mend = if sets == 0 { "unwrap the mesh" } else { "choose another uv_set" };
+                    warnings.push(format!(
+                        "meshes[{m}].primitives[{p}]: has no texture coordinates for {names} of material `{material}`, which \
+                         are not shown; {mend}"
+                    ));
+                }
             }
         }
     }
     for material in materials {
+        if let Some(cloth) = material.cloth.as_ref().filter(|_| material.standard.unlit) {
+            warnings.push(format!(
+                "material `{}`: is unlit, so that nothing shows that it is {}; set unlit = false",
+                material.name,
+                cloth.kind()
+            ));
+        }
         for (name, map) in textures(material).filter(|(name, _)| name.ends_with("normal_texture")) {
             let image = &asset.images[asset.textures[map.texture].image];
             if is_grey(image) {

@@ -320,10 +320,14 @@ fn add_missing_tangents(asset: &mut Asset, materials: &[Material], budget: &mut 
             budget.check(&field, kept_bytes.saturating_add(scratch_bytes))?;
             match generate_tangents(primitive, map.map_or(0, |map| map.uv_set as usize)) {
                 Ok(()) => budget.spend(&field, kept_bytes)?,
-                Err(_) if map.is_none() => generate_tangents_around_vertical(primitive),
+                Err(_) if map.is_none() => {
+                    generate_tangents_around_vertical(primitive);
+                    budget.spend(&field, size_of_val(primitive.vertices.tangents.as_slice()) as u64)?;
+                }
                 Err(reason) => {
                     if is_woven {
                         generate_tangents_around_vertical(primitive);
+                        budget.spend(&field, size_of_val(primitive.vertices.tangents.as_slice()) as u64)?;
                     }
                     let warning = format!("{field}: {reason}");
                     if !asset.warnings.contains(&warning) {

@@ -38,9 +38,10 @@ fn table_lobe(table: &SheenTable, sheet: Sheen, roughness: f32) -> Lobe<'_> {
 }
 
 fn cotton_surface<'a>(table: &'a SheenTable, cotton: &Cotton, material: &Material) -> Surface<'a> {
+    let metallic = f64::from(material.metallic);
     Surface {
-        diffuse: color(material.base_color),
-        pile_color: DVec3::splat(COTTON_F0),
+        diffuse: color(material.base_color) * (1.0 - metallic),
+        pile_color: DVec3::splat(COTTON_F0).lerp(color(material.base_color), metallic),
         fibre_color: cotton.sheen_color.as_dvec3(),
         pile: table_lobe(table, cotton.sheen.sheet(), material.roughness),
         fibre: table_lobe(table, cotton.sheen.sheet(), cotton.sheen_roughness),

@@ -41,7 +41,7 @@ pub fn albedo_terms(fit: &Fit, w: DVec3, (ax, ay): (f64, f64)) -> (f64, f64) {
     // Widths more than ten times apart send more to a grazing eye across the long one than any isotropic width does.
     let flatness = (1.0 - 10.0 * ax.min(ay) / ax.max(ay)).max(0.0);
     let leaning = (lean / across) * 0.03 / (0.03 + w.z);
-    let fresnel = fresnel + (1.0 - fresnel) * 0.25 * flatness * leaning;
+    let fresnel = fresnel + (1.0 - fresnel) * 0.27 * flatness * leaning;
     ((white * (1.0 + 0.04 * share)).min(1.0), fresnel)
 }
 

@@ -50,6 +50,11 @@ pub fn f0(reflectance: DVec3, share: f64) -> DVec3 {
     (reflectance / share.max(1e-6)).min(DVec3::ONE)
 }
 
+/// What a lobe takes of a metal's own reflectance: all of it from the reflectance of plain plastic on.
+pub fn metal(reflectance: DVec3) -> DVec3 {
+    (reflectance / DIELECTRIC_F0).min(DVec3::ONE)
+}
+
 /// Reflectance at grazing incidence: a black lobe has none.
 pub fn f90(f0: DVec3) -> f64 {
     (50.0 * f0.max_element()).min(1.0)
@@ -67,7 +72,7 @@ impl Satin {
             if share == 0.0 {
                 continue;
             }
-            let f0 = f0(own, share).lerp(self.base_color, self.metallic);
+            let f0 = f0(own, share).lerp(self.base_color * metal(own), self.metallic);
             let (ax, ay) = ggx::anisotropic_alpha(roughness, self.anisotropy);
             let lobe = Lobe { f0, f90: f90(f0), alpha: (ax, ay) };
             if self.two_way {

@@ -34,5 +34,6 @@ pub fn shader(cotton: &Cotton, _: &Standard) -> ClothShader {
         ],
         tables: vec![&sheen::TABLE],
         blends: false,
+        reads_rest: false,
     }
 }

@@ -24,6 +24,7 @@ pub fn shader(gauze: &Gauze, _: &Standard) -> ClothShader {
     // Density 0 is opaque in every form, and stays so.
     let opaque = gauze.weave_density == 0.0;
     let tint = gauze.specular_strength * gauze.scatter_strength * gauze.scatter_color;
+    let is_shiny = tint != Vec3::ZERO;
     let angle = gauze.thread_angle.to_radians();
     let uniforms = GauzeUniforms {
         specular: (DIELECTRIC_F0 as f32 * tint).to_array(),
@@ -44,16 +45,17 @@ pub fn shader(gauze: &Gauze, _: &Standard) -> ClothShader {
         uniforms: bytemuck::bytes_of(&uniforms).to_vec(),
         maps: vec![
             Map::data("mesh", "HAS_MESH_MAP", gauze.mesh_map),
-            Map::data("specular_noise", "HAS_SPECULAR_NOISE_MAP", gauze.specular_noise),
-            Map::data("thread_pattern", "HAS_THREAD_PATTERN_MAP", gauze.thread_pattern),
+            Map::data("specular_noise", "HAS_SPECULAR_NOISE_MAP", gauze.specular_noise.filter(|_| is_shiny)),
+            Map::data("thread_pattern", "HAS_THREAD_PATTERN_MAP", gauze.thread_pattern.filter(|_| is_shiny)),
         ],
         constants: vec![
             ("CROSSED", u32::from(gauze.weave == Weave::Crossed)),
-            ("HIGHLIGHT", u32::from(tint != Vec3::ZERO)),
+            ("HIGHLIGHT", u32::from(is_shiny)),
             ("CLASSIC", u32::from(gauze.classic)),
         ],
         tables: Vec::new(),
         blends: !opaque || gauze.mesh_map.is_some(),
+        reads_rest: false,
     }
 }
 

@@ -29,5 +29,6 @@ pub fn shader(glint: &Glint, _: &Standard) -> ClothShader {
         constants: Vec::new(),
         tables: Vec::new(),
         blends: false,
+        reads_rest: true,
     }
 }

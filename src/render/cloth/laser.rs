@@ -50,5 +50,6 @@ pub fn shader(laser: &Laser, _: &Standard) -> ClothShader {
         ],
         tables: Vec::new(),
         blends: false,
+        reads_rest: false,
     }
 }

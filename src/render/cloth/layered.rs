@@ -23,6 +23,7 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
         constants: switches.map(|(name, on)| (name, on.into())).to_vec(),
         tables: vec![&super::sheen::TABLE],
         blends: layered.has_transmission(),
+        reads_rest: false,
     }
 }
 

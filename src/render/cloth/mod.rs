@@ -31,13 +31,8 @@ pub struct ClothShader {
     pub tables: Vec<&'static Table>,
     /// It lets light through whatever the base colour's opacity is.
     pub blends: bool,
-}
-
-impl ClothShader {
-    /// Whether it asks the vertices where they are in the rest pose.
-    pub fn reads_rest(&self) -> bool {
-        self.file == "glint.frag"
-    }
+    /// It asks the vertices where they are in the rest pose.
+    pub reads_rest: bool,
 }
 
 /// The shader of a cloth over its standard parameters.

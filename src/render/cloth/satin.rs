@@ -19,11 +19,12 @@ pub fn shader(satin: &Satin, _: &Standard) -> ClothShader {
         ..Default::default()
     };
     let shines = |color: Vec3| u32::from(satin.specular_strength > 0.0 && color != Vec3::ZERO);
+    let is_shiny = shines(satin.specular_color) + shines(satin.secondary_color) > 0;
     ClothShader {
         file: "satin.frag",
         block: "SatinBlock",
         uniforms: bytemuck::bytes_of(&uniforms).to_vec(),
-        maps: vec![Map::data("specular_noise", "HAS_SPECULAR_NOISE_MAP", satin.specular_noise)],
+        maps: vec![Map::data("specular_noise", "HAS_SPECULAR_NOISE_MAP", satin.specular_noise.filter(|_| is_shiny))],
         constants: vec![
             ("NARROW", shines(satin.specular_color)),
             ("SECONDARY", shines(satin.secondary_color)),
@@ -32,5 +33,6 @@ pub fn shader(satin: &Satin, _: &Standard) -> ClothShader {
         ],
         tables: Vec::new(),
         blends: false,
+        reads_rest: false,
     }
 }

@@ -24,5 +24,6 @@ pub fn shader(velvet: &Velvet, _: &Standard) -> ClothShader {
         ],
         tables: vec![&sheen::TABLE],
         blends: false,
+        reads_rest: false,
     }
 }

@@ -20,6 +20,7 @@ pub(super) const TWINS: &[Twin] = &[
     }),
     Twin::new("satin_share", &[REFLECTANCE, REFLECTANCE], |given| vec![satin::share(given.vec3(), given.vec3())]),
     Twin::new("satin_f0", &[REFLECTANCE, UNIT], |given| satin::f0(given.vec3(), given.number()).to_array().to_vec()),
+    Twin::new("satin_metal", &[REFLECTANCE], |given| satin::metal(given.vec3()).to_array().to_vec()),
     Twin::new("satin_f90", &[UNIT], |given| vec![satin::f90(given.vec3())]),
     Twin::new("satin_noise", &[UNIT], |given| vec![0.5 + 0.5 * given.number()]),
     Twin::new("satin_classic_alpha", &[ROUGHNESS, ANISOTROPY], |given| {
