@@ -6,7 +6,9 @@
 #include "layered_material.glsl"
 #include "layered.glsl"
 #include "film.glsl"
-#include "sheen.glsl"
+#ifdef SHEEN
+#include "sheen_table.glsl"
+#endif
 
 layout(constant_id = 20) const bool HAS_SPECULAR_MAP = false;
 layout(constant_id = 21) const bool HAS_SPECULAR_COLOR_MAP = false;
@@ -25,7 +27,6 @@ layout(constant_id = 33) const bool ANISOTROPY = false;
 layout(constant_id = 34) const bool IRIDESCENCE = false;
 layout(constant_id = 35) const bool DIFFUSE_TRANSMISSION = false;
 layout(constant_id = 36) const bool TRANSMISSION = false;
-layout(constant_id = 37) const bool SHEEN = false;
 layout(constant_id = 38) const bool CLEARCOAT = false;
 
 layout(set = 1, binding = 20, std140) uniform LayeredBlock { LayeredUniforms layered; };
@@ -58,8 +59,6 @@ layout(set = 1, binding = 45) uniform texture2D clearcoat_normal_map;
 layout(set = 1, binding = 46) uniform sampler clearcoat_normal_sampler;
 #define MAP(map, map_sampler, transform) texture(sampler2D(map, map_sampler), uv_transformed(transform, uv_sets.xy, uv_sets.zw))
 #endif
-layout(set = 1, binding = 47) uniform texture2D sheen_table;
-layout(set = 1, binding = 48) uniform sampler sheen_table_sampler;
 
 // What the material says of a fragment, its maps applied.
 struct LayeredFragment {
@@ -154,6 +153,7 @@ void scattered_light(SurfaceFragment f, inout LayeredFragment m) {
     m.transmitted *= scattered;
 }
 
+#ifdef SHEEN
 void fuzz(inout LayeredFragment m) {
     m.sheen_color = layered.sheen_color;
     m.sheen_roughness = layered.sheen_roughness;
@@ -166,6 +166,7 @@ void fuzz(inout LayeredFragment m) {
     }
 #endif
 }
+#endif
 
 void varnish(inout LayeredFragment m) {
     m.clearcoat = layered.clearcoat;
@@ -193,10 +194,6 @@ vec3 varnish_normal(SurfaceFragment f) {
     return f.normal_in_world;
 }
 
-vec4 sheen_texel(float mu, float roughness) {
-    return textureLod(sampler2D(sheen_table, sheen_table_sampler), sheen_table_uv(SHEEN_CHARLIE, mu, roughness), 0.0);
-}
-
 // Albedo terms of the base's lobe towards w, of either side.
 vec2 base_terms(vec3 w, float roughness, vec2 widths) {
     w.z = abs(w.z);
@@ -219,7 +216,9 @@ void main() {
     dielectric_and_metal(f, m);
     if (IRIDESCENCE) { thin_film(f, m); }
     scattered_light(f, m);
-    if (SHEEN) { fuzz(m); }
+#ifdef SHEEN
+    fuzz(m);
+#endif
     if (CLEARCOAT) { varnish(m); }
 
     mat3 world_from_base = f.world_from_tangent;
@@ -235,17 +234,14 @@ void main() {
     vec3 ambient = layered_base_ambient(base);
     float through = TRANSMISSION ? layered_through(m.transmission, f.metallic, f.base_color, base.albedo) : 0.0;
 
-    SheenLobe sheen;
-    float sheen_albedo = 0.0;
-    float sheen_strength = 0.0;
-    if (SHEEN) {
-        sheen = sheen_lobe(SHEEN_CHARLIE, m.sheen_roughness, eye, sheen_texel(eye.z, m.sheen_roughness));
-        sheen_strength = largest(m.sheen_color);
-        sheen_albedo = layered_sheen_albedo(sheen.albedo);
-        float left = layered_under(sheen_strength, sheen_albedo, 0.0);
-        ambient = ambient * left + m.sheen_color * sheen.albedo;
-        through *= left;
-    }
+#ifdef SHEEN
+    SheenLobe sheen = sheen_table_lobe(SHEEN_CHARLIE, eye, m.sheen_roughness);
+    float sheen_strength = largest(m.sheen_color);
+    float sheen_albedo = layered_sheen_albedo(sheen.albedo);
+    float left_by_sheen = layered_under(sheen_strength, sheen_albedo, 0.0);
+    ambient = ambient * left_by_sheen + m.sheen_color * sheen.albedo;
+    through *= left_by_sheen;
+#endif
     mat3 world_from_coat;
     vec3 eye_in_coat;
     float coat_albedo = 0.0;
@@ -267,11 +263,11 @@ void main() {
         LightSample light = light_sample(lights[index], position_in_world);
         vec3 l = light.direction_in_world * world_from_base;
         vec3 seen = layered_base_times_cosine(base, eye, l, base_terms(l, f.roughness, m.widths));
-        if (SHEEN) {
-            float albedo = layered_sheen_albedo(sheen_texel(abs(l.z), m.sheen_roughness).x);
-            seen *= layered_under(sheen_strength, sheen_albedo, albedo);
-            seen += m.sheen_color * sheen_brdf_times_cosine(SHEEN_CHARLIE, sheen, eye, l);
-        }
+#ifdef SHEEN
+        float sheen_albedo_l = sheen_table_texel(SHEEN_CHARLIE, abs(l.z), m.sheen_roughness).x;
+        seen *= layered_under(sheen_strength, sheen_albedo, layered_sheen_albedo(sheen_albedo_l));
+        seen += m.sheen_color * sheen_brdf_times_cosine(SHEEN_CHARLIE, sheen, eye, l);
+#endif
         if (CLEARCOAT) {
             vec3 l_in_coat = light.direction_in_world * world_from_coat;
             float albedo = layered_coat_albedo(min(abs(l_in_coat.z), 1.0), m.clearcoat_roughness);

@@ -3,8 +3,8 @@
 #define VAIR_SHEEN_TABLE_GLSL
 #include "sheen.glsl"
 
-layout(set = 1, binding = 40) uniform texture2D sheen_table;
-layout(set = 1, binding = 41) uniform sampler sheen_table_sampler;
+layout(set = 1, binding = 60) uniform texture2D sheen_table;
+layout(set = 1, binding = 61) uniform sampler sheen_table_sampler;
 
 // (albedo, a, b, average of the albedo) at a cosine and a perceptual roughness.
 vec4 sheen_table_texel(uint sheen, float mu, float roughness) {

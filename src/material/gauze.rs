@@ -24,7 +24,7 @@ crate::parameters! {
         mesh_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the grid of threads (1) and holes (0).";
         anisotropy: f32 as Number = 0.8, (-1.0, 1.0), "", "Length and direction of the highlight: stretched along u of the texture at 1, round at 0, across it at -1.";
         specular_strength: f32 as Number = 1.0, (0.0, 20.0), "", "Strength of the highlight: 1 is plain plastic; 0 none.";
-        specular_noise: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the local strength of the highlight, 0 = half of it, 1 = all of it.";
+        specular_noise: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the local strength of the highlight, 0 = half of it (none where classic), 1 = all of it.";
         scatter_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Linear tint of the highlight alone; the cloth keeps its base colour. Black switches the highlight off.";
         scatter_strength: f32 as Number = 1.0, (0.0, 10.0), "", "Factor on that tint.";
         thread_pattern: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: where R is above thread_threshold the highlight is turned by thread_angle, so that crossing threads glint in two directions.";

@@ -32,7 +32,7 @@ crate::choices! {
     /// What the film is.
     pub enum FilmKind {
         None = "none", "Paint: the colours of color_mode.";
-        ThinFilm = "thin_film", "A clear film that interferes with itself; hue, ramp and direction do not count.";
+        ThinFilm = "thin_film", "A clear film that interferes with itself; what says hue, saturation, brightness and direction does not count.";
     }
 }
 

@@ -21,7 +21,7 @@ crate::parameters! {
         specular_color: Vec3 as Rgb = Vec3::ONE, (0.0, 1e6), "", "Colour of the reflection where the surface faces the eye; above 1 is brighter than ior alone. Metals keep theirs.";
         specular_color_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Local colour of the reflection, sRGB-decoded.";
         anisotropy: f32 as Number = 0.0, UNIT, "", "Length of the highlight: 0 round, 1 a streak across the surface.";
-        anisotropy_rotation: f32 as Number = 0.0, (-36e3, 36e3), "degrees", "Turns the streak counter-clockwise, from the tangent.";
+        anisotropy_rotation: f32 as Number = 0.0, (-36e3, 36e3), "deg", "Turns the streak counter-clockwise, from the tangent.";
         anisotropy_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: RG is the local direction of the streak, (direction + 1) / 2, B its strength.";
         iridescence: f32 as Number = 0.0, UNIT, "", "How much of the surface a thin film covers, which colours the reflection by the angle.";
         iridescence_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the local share of the film.";

@@ -129,7 +129,7 @@ impl PipelineSpec {
 
         let rest = cloth.is_some_and(|cloth| cloth.reads_rest);
         let vertex_defines = [("UNLIT", unlit), ("UV", uv), ("TANGENT", tangent), ("REST", rest), ("COLOR", color)];
-        let fragment_defines = [
+        let mut fragment_defines = vec![
             ("UNLIT", unlit),
             ("UV", uv),
             ("TANGENT", tangent),
@@ -137,6 +137,7 @@ impl PipelineSpec {
             ("MAPS", own_maps),
             ("COLOR", color),
         ];
+        fragment_defines.extend(cloth.into_iter().flat_map(|cloth| cloth.defines).map(|define| (*define, true)));
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));

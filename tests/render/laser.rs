@@ -228,3 +228,27 @@ pub fn laser_balls() -> Scene {
     }
     scene
 }
+
+/// A direction in the cloth is the same from both sides of it.
+#[test]
+fn threads_run_the_same_way_on_the_back() {
+    let along = Vec2::from_angle(std::f32::consts::FRAC_PI_4);
+    let colors = |device: &mut Headless, eye_in_cloth: Vec3| {
+        let mut stage = Stage::front(0.2);
+        let material = stage.material(Material { base_color: BASE, double_sided: true, ..plain() });
+        let rotation = Quat::from_rotation_arc(eye_in_cloth.normalize(), Vec3::Z);
+        stage.object(quad(1.0, 1.0), material, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
+        let mut scene = stage.scene();
+        let directional = HueDirection::Value;
+        let laser = Laser { directional, color_direction: 45.0, hue_span: 2.0, ..Laser::default() };
+        scene.materials_mut()[material].cloth = Some(Cloth::Laser(laser));
+        device.picture(&scene, &options([4, 4], 1)).radiance(2, 2).truncate()
+    };
+    headless(|device| {
+        let front = colors(device, (0.8 * along).extend(0.6));
+        let back = colors(device, (0.8 * along).extend(-0.6));
+        let across = colors(device, (0.8 * along.perp()).extend(0.6));
+        assert!((front - back).abs().max_element() < 1e-4, "{front} {back}");
+        assert!((front - across).abs().max_element() > 1e-3, "{front} {across}");
+    });
+}

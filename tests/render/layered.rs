@@ -295,7 +295,7 @@ fn maps_and_lobes_that_are_off_cost_nothing() {
         let constants = plan.pipelines.iter().flat_map(|spec| spec.constants.clone());
         let is_shared = |name: &str| ["ALPHA_MODE", "SAMPLE_COUNT", "DOUBLE_SIDED"].contains(&name);
         let on = constants.filter(|(name, value)| *value != 0 && !is_shared(name)).map(|(name, _)| name);
-        (scene.materials()[0].kind(), on.collect::<Vec<_>>())
+        (scene.materials()[0].kind(), on.collect::<Vec<_>>(), plan.tables.len())
     };
     let mut stage = Stage::front(0.5);
     let map = Some(stage.texel(TEXEL));
@@ -305,11 +305,13 @@ fn maps_and_lobes_that_are_off_cost_nothing() {
         ior: Some(1.5),
         ..MaterialExtensions::default()
     };
-    assert_eq!(switched_on(off.clone()), ("standard", vec![]), "what changes nothing is the standard surface");
+    assert_eq!(switched_on(off.clone()), ("standard", vec![], 0), "what changes nothing is the standard surface");
     let one = MaterialExtensions { ior: Some(1.3), ..off };
-    assert_eq!(switched_on(one), ("layered", vec![]), "no lobe, and no map of a lobe that is off");
+    assert_eq!(switched_on(one), ("layered", vec![], 0), "no lobe, and no map of a lobe that is off");
     let coat = MaterialExtensions { clearcoat: Some(Box::new(varnish())), ..MaterialExtensions::default() };
-    assert_eq!(switched_on(coat), ("layered", vec!["CLEARCOAT"]));
+    assert_eq!(switched_on(coat), ("layered", vec!["CLEARCOAT"], 0));
+    let fuzz = MaterialExtensions { sheen: Some(Box::new(sheen())), ..MaterialExtensions::default() };
+    assert_eq!(switched_on(fuzz), ("layered", vec![], 1), "the table of its fuzz");
 }
 
 #[test]

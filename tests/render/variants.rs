@@ -6,7 +6,7 @@ use crate::stage::{Stage, at, options, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
-use vair::material::{Blend, Cloth, Form, Fur, ImageName, Shape, TextureSource, Value};
+use vair::material::{Blend, Cloth, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
 use vair::render::{FrameOptions, Plan, Shot};
 use vair::scene::Scene;
 use vair::shader::table;
@@ -73,7 +73,8 @@ fn cloths() -> Scene {
     let mut stage = Stage::front(0.5);
     let map = stage.texel([128, 128, 255, 255]);
     let mut dressed = Vec::new();
-    for cloth in Cloth::KINDS.iter().filter_map(|kind| Cloth::of_kind(kind)) {
+    let fuzzy = Cloth::Layered(Layered { sheen_color: Vec3::ONE, ..Layered::default() });
+    for cloth in Cloth::KINDS.iter().filter_map(|kind| Cloth::of_kind(kind)).chain([fuzzy]) {
         for has_color in [false, true] {
             for (textured, detailed, own_maps) in [
                 (false, false, false),

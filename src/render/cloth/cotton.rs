@@ -32,6 +32,7 @@ pub fn shader(cotton: &Cotton, _: &Standard) -> ClothShader {
             ("CLASSIC", cotton.classic.into()),
             ("HAS_FIBRE", has_fibre.into()),
         ],
+        defines: &[],
         tables: vec![&sheen::TABLE],
         blends: false,
         reads_rest: false,

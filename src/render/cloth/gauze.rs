@@ -53,6 +53,7 @@ pub fn shader(gauze: &Gauze, _: &Standard) -> ClothShader {
             ("HIGHLIGHT", u32::from(is_shiny)),
             ("CLASSIC", u32::from(gauze.classic)),
         ],
+        defines: &[],
         tables: Vec::new(),
         blends: !opaque || gauze.mesh_map.is_some(),
         reads_rest: false,

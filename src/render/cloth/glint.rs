@@ -27,6 +27,7 @@ pub fn shader(glint: &Glint, _: &Standard) -> ClothShader {
         uniforms: bytemuck::bytes_of(&uniforms).to_vec(),
         maps: vec![Map::data("mask", "HAS_MASK_MAP", glint.mask_map)],
         constants: Vec::new(),
+        defines: &[],
         tables: Vec::new(),
         blends: false,
         reads_rest: true,

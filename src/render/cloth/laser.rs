@@ -48,6 +48,7 @@ pub fn shader(laser: &Laser, _: &Standard) -> ClothShader {
             ("IS_DIRECTIONAL", is_directional.into()),
             ("CLASSIC", laser.classic.into()),
         ],
+        defines: &[],
         tables: Vec::new(),
         blends: false,
         reads_rest: false,

@@ -12,7 +12,6 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
         ("IRIDESCENCE", layered.has_iridescence()),
         ("DIFFUSE_TRANSMISSION", layered.has_diffuse_transmission()),
         ("TRANSMISSION", layered.has_transmission()),
-        ("SHEEN", layered.has_sheen()),
         ("CLEARCOAT", layered.has_clearcoat()),
     ];
     ClothShader {
@@ -21,7 +20,8 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
         uniforms: bytemuck::bytes_of(&uniforms(layered)).to_vec(),
         maps: maps(layered),
         constants: switches.map(|(name, on)| (name, on.into())).to_vec(),
-        tables: vec![&super::sheen::TABLE],
+        defines: if layered.has_sheen() { &["SHEEN"] } else { &[] },
+        tables: layered.has_sheen().then_some(&super::sheen::TABLE).into_iter().collect(),
         blends: layered.has_transmission(),
         reads_rest: false,
     }

@@ -27,6 +27,8 @@ pub struct ClothShader {
     pub maps: Vec<Map>,
     /// Specialization constants beside those of the maps, by GLSL name; those that are 0 may be left out.
     pub constants: Vec<(&'static str, u32)>,
+    /// Defines of its own in `shaders_glsl/permutations`.
+    pub defines: &'static [&'static str],
     /// Look-up tables that its lobes need.
     pub tables: Vec<&'static Table>,
     /// It lets light through whatever the base colour's opacity is.

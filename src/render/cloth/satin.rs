@@ -31,6 +31,7 @@ pub fn shader(satin: &Satin, _: &Standard) -> ClothShader {
             ("TWO_WAY", u32::from(satin.two_way)),
             ("CLASSIC", u32::from(satin.classic)),
         ],
+        defines: &[],
         tables: Vec::new(),
         blends: false,
         reads_rest: false,

@@ -22,6 +22,7 @@ pub fn shader(velvet: &Velvet, _: &Standard) -> ClothShader {
             ("CLASSIC", velvet.classic.into()),
             ("HAS_FIBRE", (velvet.scatter_color != Vec3::ZERO).into()),
         ],
+        defines: &[],
         tables: vec![&sheen::TABLE],
         blends: false,
         reads_rest: false,
