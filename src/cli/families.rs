@@ -59,7 +59,7 @@ fn as_text(profile: &FamilyProfile, [width, height]: [u32; 2], samples: u32) -> 
     if profile.families.is_empty() {
         return text + "the device has no timestamps\n";
     }
-    text += &format!("{:<12}{:>11}{:>11}{:>11}{:>13}\n", "family", "GPU ms", "min", "max", "to standard");
+    text += &format!("{:<12}{:>11}{:>11}{:>11}{:>13}\n", "family", "device ms", "min", "max", "to standard");
     for family in &profile.families {
         let (ms, ratio) = (family.surface_ms, family.to_standard.median);
         text += &format!("{:<12}{:>11.3}{:>11.3}{:>11.3}{ratio:>13.2}\n", family.kind, ms.median, ms.min, ms.max);

@@ -12,7 +12,7 @@ use vair::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
 use vair::render::PassFragments;
 
 const COLUMNS: [&str; 11] =
-    ["pass", "GPU ms", "min", "max", "draws", "instances", "vertices", "triangles", "shaded", "rasterized", "overdraw"];
+    ["pass", "device ms", "min", "max", "draws", "instances", "vertices", "triangles", "shaded", "rasterized", "overdraw"];
 
 const MIB: f64 = (1 << 20) as f64;
 
