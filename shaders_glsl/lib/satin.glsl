@@ -4,6 +4,7 @@
 // 1, never add up to more. Source of the limits: classic satin, with what its strength promised read as reflectance.
 #ifndef VAIR_SATIN_GLSL
 #define VAIR_SATIN_GLSL
+#include "ggx.glsl"
 
 float satin_largest(vec3 color) {
     return max(color.x, max(color.y, color.z));
@@ -45,6 +46,13 @@ float satin_noise(float texel) {
 vec2 satin_classic_alpha(float roughness, float anisotropy) {
     float alpha = roughness * roughness;
     return max(vec2(alpha * (1.0 + anisotropy), alpha * (1.0 - anisotropy)), 1e-3);
+}
+
+// Classic lobe times the cosine of l, before strength and colour: GGX without its 1 / (ax ay); v and l above the horizon.
+vec3 satin_classic_times_cosine(vec3 f0, vec2 alpha, vec3 v, vec3 l) {
+    vec3 h = ggx_half_vector(v, l);
+    float lobe = ggx_ndf(h, alpha.x, alpha.y) * ggx_masking_shadowing_times_cosine(v, l, alpha.x, alpha.y);
+    return schlick(f0, dot(v, h)) * (lobe * alpha.x * alpha.y);
 }
 
 // Classic colour of the highlight under that light: not a reflectance, blue light comes back red.

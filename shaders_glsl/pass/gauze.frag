@@ -115,9 +115,8 @@ vec3 reflected(SurfaceFragment f, Threads t, float depth) {
 // The highlight of classic satin under the scatter colour, on Lambert; times the opacity, as older engines blend.
 vec3 classic_lobe(SurfaceFragment f, Threads t, vec2 alpha, vec3 v, vec3 l) {
     vec3 f0 = mix(vec3(0.04), f.base_color, f.metallic);
-    vec3 h = ggx_half_vector(v, l);
-    float lobe = ggx_ndf(h, alpha.x, alpha.y) * ggx_masking_shadowing_times_cosine(v, l, alpha.x, alpha.y);
-    return schlick(f0, dot(v, h)) * (lobe * alpha.x * alpha.y * 25.0 * t.noise) * gauze.specular;
+    // The block holds 0.04 times the tint, which is what the default form asks for.
+    return satin_classic_times_cosine(f0, alpha, v, l) * gauze.specular * (25.0 * t.noise);
 }
 
 vec3 classic_reflected(SurfaceFragment f, Threads t, float opacity) {

@@ -92,12 +92,8 @@ vec3 reflected(SurfaceFragment f, float noise) {
     return sum;
 }
 
-// Classic lobes are GGX times ax ay; F90 = 1.
 vec3 classic_times_cosine(vec3 f0, float roughness, float anisotropy, vec3 v, vec3 l) {
-    vec2 alpha = satin_classic_alpha(roughness, anisotropy);
-    vec3 h = ggx_half_vector(v, l);
-    float lobe = ggx_ndf(h, alpha.x, alpha.y) * ggx_masking_shadowing_times_cosine(v, l, alpha.x, alpha.y);
-    return schlick(f0, dot(v, h)) * (lobe * alpha.x * alpha.y);
+    return satin_classic_times_cosine(f0, satin_classic_alpha(roughness, anisotropy), v, l);
 }
 
 vec3 classic_albedo(vec3 f0, float roughness, float anisotropy, vec3 v) {

@@ -11,8 +11,19 @@ use std::path::PathBuf;
 use vair::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
 use vair::render::PassFragments;
 
-const COLUMNS: [&str; 11] =
-    ["pass", "device ms", "min", "max", "draws", "instances", "vertices", "triangles", "shaded", "rasterized", "overdraw"];
+const COLUMNS: [&str; 11] = [
+    "pass",
+    "device ms",
+    "min",
+    "max",
+    "draws",
+    "instances",
+    "vertices",
+    "triangles",
+    "shaded",
+    "rasterized",
+    "overdraw",
+];
 
 const MIB: f64 = (1 << 20) as f64;
 

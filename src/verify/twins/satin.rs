@@ -1,9 +1,9 @@
 //! Judges `satin.glsl`.
 
-use super::super::domain::{Domain, ROUGHNESS, UNIT};
+use super::super::domain::{ALPHA, Domain, ROUGHNESS, UNIT};
 use super::super::twin::Twin;
 use crate::material::reference::classic::satin as classic;
-use crate::material::reference::satin;
+use crate::material::reference::{ggx, satin};
 use glam::DVec3;
 
 /// 0.04 times the largest strength.
@@ -26,6 +26,17 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("satin_classic_alpha", &[ROUGHNESS, ANISOTROPY], |given| {
         let (ax, ay) = classic::widths(given.number(), given.number());
         vec![ax.max(1e-3), ay.max(1e-3)]
+    }),
+    Twin::new("satin_classic_times_cosine", &[UNIT, ALPHA, Domain::Above, Domain::Above], |given| {
+        let (f0, ax, ay) = (given.vec3(), given.number(), given.number());
+        let (v, l) = (given.vec3(), given.vec3());
+        let h = ggx::half_vector(v, l);
+        // Opposed directions have no half vector, and no lobe.
+        if h == DVec3::ZERO {
+            return vec![0.0; 3];
+        }
+        let lobe = classic::ndf(h, ax, ay) * ggx::masking_shadowing_times_cosine(v, l, ax, ay);
+        f0.to_array().map(|f0| lobe * ggx::schlick(f0, v.dot(h))).to_vec()
     }),
     Twin::new("satin_classic_light", &[UNIT, LIGHT, UNIT], |given| {
         let (tint, light, share) = (given.vec3(), given.vec3(), given.number());
