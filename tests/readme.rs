@@ -12,7 +12,7 @@ const COLUMNS: usize = 4;
 fn gallery() -> String {
     let mut text = String::new();
     let cell = |preset: &vair::material::Preset| {
-        let file = preset.name.replace(' ', "-");
+        let file = preset.hyphenated();
         format!(
             "<img src=\"docs/presets/{file}.png\" width=\"200\"><br>**{}** ({}): {}",
             preset.name,

@@ -104,22 +104,13 @@ vec3 standard_specular_compensation(vec3 f0, float white_albedo) {
     return 1.0 + f0 * ((1.0 - white_albedo) / max(white_albedo, 1e-3));
 }
 
-// Albedo of the compensated lobe, in [0, 1]; terms from ggx_albedo_terms.
-vec3 standard_compensated_albedo(vec3 f0, vec2 terms) {
-    return (f0 + (1.0 - f0) * terms.y) * (terms.x + f0 * (1.0 - terms.x));
-}
-
-// Its cosine-weighted average; terms from ggx_average_terms.
-vec3 standard_average_compensated_albedo(vec3 f0, vec3 terms) {
-    return terms.x + f0 * ((terms.y + terms.z - 2.0 * terms.x) + f0 * (1.0 - terms.y - terms.z + terms.x));
-}
-
-// The same between f0 and f90, the reflectance at grazing incidence, [0, 1], not below f0.
+// Albedo of the compensated lobe, in [0, 1]; terms from ggx_albedo_terms. f90 is the reflectance at grazing incidence, in
+// [0, 1], not below f0.
 vec3 compensated_albedo(vec3 f0, float f90, vec2 terms) {
     return (f0 + (f90 - f0) * terms.y) * (terms.x + f0 * (1.0 - terms.x));
 }
 
-// Its cosine-weighted average.
+// Its cosine-weighted average; terms from ggx_average_terms.
 vec3 average_compensated_albedo(vec3 f0, float f90, vec3 terms) {
     return f0 * (terms.y + f0 * (1.0 - terms.y)) + (f90 - f0) * (terms.x + f0 * (terms.z - terms.x));
 }

@@ -4,7 +4,8 @@
 // Sources: as ggx.glsl; Turquin 2019 (compensation). The albedo is our own mapping onto the isotropic fits. What Smith's
 // masking asks of a direction is its slope in units of the widths: that is kept, on a lobe of the width that loses as
 // much seen from the front. Against quadrature over widths 1e-3..1, mu 1e-3..1 and all azimuths: never more than 0.1 %
-// below the truth, as that would gain energy; at most 0.21 above it, where widths ten times apart and more are seen grazing and across.
+// below the truth, as that would gain energy; at most 0.21 above it, where widths ten times apart and more are seen
+// grazing and across.
 #ifndef VAIR_ANISOTROPY_GLSL
 #define VAIR_ANISOTROPY_GLSL
 #include "ggx.glsl"

@@ -29,9 +29,9 @@ StandardSurface standard_coupled(vec3 f0, vec3 diffuse, float roughness, float m
     s.f0 = f0;
     s.diffuse = diffuse;
     vec2 terms = ggx_albedo_terms(mu_v, roughness);
-    s.specular_albedo = standard_compensated_albedo(s.f0, terms);
+    s.specular_albedo = compensated_albedo(s.f0, 1.0, terms);
     s.specular_compensation = standard_specular_compensation(s.f0, terms.x);
-    vec3 average = standard_average_compensated_albedo(s.f0, ggx_average_terms(roughness));
+    vec3 average = average_compensated_albedo(s.f0, 1.0, ggx_average_terms(roughness));
     s.coupled_diffuse = s.diffuse * 0.318309886 * (1.0 - s.specular_albedo) / max(1.0 - average, 1e-4);
     return s;
 }
@@ -49,7 +49,7 @@ vec3 standard_brdf_times_cosine(StandardSurface s, vec3 v, vec3 l) {
     vec3 h = ggx_half_vector(v, l);
     float lobe = ggx_ndf(h, s.alpha_x, s.alpha_y) * ggx_masking_shadowing_times_cosine(v, l, s.alpha_x, s.alpha_y);
     vec3 specular = schlick(s.f0, dot(v, h)) * s.specular_compensation * lobe;
-    vec3 left = 1.0 - standard_compensated_albedo(s.f0, ggx_albedo_terms(l.z, s.roughness));
+    vec3 left = 1.0 - compensated_albedo(s.f0, 1.0, ggx_albedo_terms(l.z, s.roughness));
     return specular + s.coupled_diffuse * left * l.z;
 }
 

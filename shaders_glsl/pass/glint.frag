@@ -63,7 +63,7 @@ void main() {
     float bare = 1.0 - min(share * cover.w, 1.0);
     float metal = share * glint.intensity;
 
-    vec3 flakes_ambient = standard_compensated_albedo(glint.flake_color, terms) * cover.rgb;
+    vec3 flakes_ambient = compensated_albedo(glint.flake_color, 1.0, terms) * cover.rgb;
     vec3 sum = frame.ambient_radiance * f.occlusion * (bare * standard_ambient(cloth) + metal * flakes_ambient);
     for (uint index = 0u; index < frame.light_count; ++index) {
         LightSample light = light_sample(lights[index], position_in_world);

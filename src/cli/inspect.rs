@@ -50,7 +50,7 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
     let tables = plan
         .tables
         .values()
-        .map(|table| json!({ "name": table.name, "format": "rgba16f, table", "bytes": table.bytes().len() }));
+        .map(|table| json!({ "name": table.name, "format": "rgba16f, table", "bytes": table.texels.len() }));
     json!({
         "passes": passes.collect::<Vec<_>>(),
         "attachments": plan.attachments.iter().map(|attachment| json!({

@@ -96,7 +96,7 @@ fn save_pictures(arguments: &PresetsArguments, folder: &Path) -> Result<()> {
     for preset in chosen {
         bar.set_message(preset.name.clone());
         let picture = renderer.render(&Scene::swatch(&preset.name)?, &options)?;
-        picture.save(folder.join(format!("{}.png", preset.name.replace(' ', "-"))))?;
+        picture.save(folder.join(format!("{}.png", preset.hyphenated())))?;
         bar.inc(1);
     }
     bar.finish_and_clear();

@@ -17,6 +17,11 @@ pub struct Preset {
 }
 
 impl Preset {
+    /// Its name with hyphens, as command lines and files have it.
+    pub fn hyphenated(&self) -> String {
+        self.name.replace(' ', "-")
+    }
+
     /// The kind of material that it makes, one of [`KINDS`](super::KINDS).
     pub fn kind(&self) -> &'static str {
         self.section.kind().unwrap_or("standard")

@@ -46,7 +46,7 @@ pub fn look_schema() -> Value {
 
 /// As they are listed, and as a command line would rather have them.
 fn preset_names() -> Vec<String> {
-    let mut names: Vec<String> = presets().iter().flat_map(|p| [p.name.clone(), p.name.replace(' ', "-")]).collect();
+    let mut names: Vec<String> = presets().iter().flat_map(|p| [p.name.clone(), p.hyphenated()]).collect();
     names.dedup();
     names
 }

@@ -1,6 +1,6 @@
 //! Models of fuzz, and what their lobes reflect, tabulated: the one thing about sheen that no formula gives.
 //!
-//! `tools/fit_sheen.rs` makes the table, [`SheenTable::shipped`] reads it, and a renderer uploads [`SheenTable::texels`]
+//! `tools/fit_sheen.rs` makes the table, [`SheenTable::shipped`] reads it, and a renderer uploads [`SheenTable::BYTES`]
 //! as the texture that `sheen_table_uv` of `sheen.glsl` looks into.
 
 use half::f16;
@@ -70,7 +70,7 @@ impl SheenTable {
     /// Width and height of the texture.
     pub const SIZE: [u32; 2] = [Self::NODES as u32, (Self::NODES * Sheen::ALL.len()) as u32];
     /// Texels of that texture in rows, each four little-endian half floats: albedo, a, b, average.
-    const BYTES: &[u8] = include_bytes!("sheen.f16");
+    pub const BYTES: &[u8] = include_bytes!("sheen.f16");
 
     /// The cosine or roughness of a node; cosines are the square of their place.
     pub fn place(node: usize) -> f64 {

@@ -156,7 +156,7 @@ fn has_map(plan: &Plan, scene: &Scene, family: &str, stem: &str) -> bool {
             coat => {
                 let standard = scene.standard(instance.material, coat.is_some());
                 let cloth = scene.cloth(instance.material, coat.is_some());
-                surface_maps(&standard, cloth.map(|cloth| cloth_shader(cloth, &standard)).as_ref())
+                surface_maps(&standard, cloth.map(cloth_shader).as_ref())
             }
         };
         maps.iter().any(|map| map.name == stem && map.texture.is_some())

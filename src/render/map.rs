@@ -48,6 +48,11 @@ impl StandIn {
 }
 
 impl Map {
+    /// The same, or without its texture where nothing of the material asks for it: then it is neither bound nor fetched.
+    pub fn when(self, is_used: bool) -> Self {
+        Self { texture: self.texture.filter(|_| is_used), ..self }
+    }
+
     /// A map of colours.
     pub fn color(name: &'static str, constant: &'static str, texture: Option<TextureRef>) -> Self {
         Self { srgb: true, ..Self::data(name, constant, texture) }

@@ -58,7 +58,7 @@ impl Plan {
             add(format!("{stand_in:?}"), size_of_val(&stand_in.texel()) as u64);
         }
         for table in self.tables.values() {
-            add(table.name.to_owned(), table.bytes().len() as u64);
+            add(table.name.to_owned(), table.texels.len() as u64);
         }
         if self.has_absent_streams {
             add("absent stream".to_owned(), size_of_val(&ABSENT) as u64);

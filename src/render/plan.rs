@@ -192,7 +192,7 @@ impl Plan {
 
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
-        let cloth = scene.cloth(surface.material, surface.under_fur).map(|cloth| cloth_shader(cloth, &standard));
+        let cloth = scene.cloth(surface.material, surface.under_fur).map(cloth_shader);
         let spec = PipelineSpec::surface(&standard, cloth.as_ref(), geometry, options);
         self.add_textures(scene, &spec, &surface_maps(&standard, cloth.as_ref()));
         let tables = cloth.into_iter().flat_map(|cloth| cloth.tables);

@@ -1,7 +1,7 @@
 //! What a scene keeps on the device: streams, indices, images, materials, pipelines. Each is made when a plan
 //! first lists it and kept for the frames after.
 
-use super::cloth::cloth_shader;
+use super::cloth::{cloth_shader, cloth_uniforms};
 use super::geometry::{index_bytes, morph_delta_bytes, stream_bytes};
 use super::map::{Map, StandIn, surface_maps};
 use super::material::standard_uniforms;
@@ -294,7 +294,7 @@ impl Resources {
     fn prepare_tables(&mut self, upload: &mut Upload, plan: &Plan) -> Result<(), GpuError> {
         for (name, table) in &plan.tables {
             if !self.tables.contains_key(name) {
-                let levels = [Cow::Owned(table.bytes())];
+                let levels = [Cow::Borrowed(table.texels)];
                 let image = filled_image(&self.gpu, upload, name, table.size, Table::FORMAT, &levels)?;
                 self.tables.insert(name, image);
             }
@@ -324,13 +324,14 @@ impl Resources {
             let bytes = standard_uniforms(&standard);
             let uniforms = filled_buffer(&self.gpu, upload, name, usage, bytemuck::bytes_of(&bytes))?;
             let mut blocks = vec![("StandardBlock", &uniforms)];
-            let cloth = scene.cloth(surface.material, surface.under_fur).map(|cloth| cloth_shader(cloth, &standard));
-            let cloth = cloth.filter(|cloth| spec.bindings().contains(cloth.block));
-            let own = cloth
-                .as_ref()
-                .map(|cloth| filled_buffer(&self.gpu, upload, name, usage, &cloth.uniforms))
-                .transpose()?;
-            blocks.extend(cloth.as_ref().zip(own.as_ref()).map(|(cloth, own)| (cloth.block, own)));
+            let cloth = scene.cloth(surface.material, surface.under_fur).map(|cloth| (cloth_shader(cloth), cloth));
+            let cloth = cloth.filter(|(shader, _)| spec.bindings().contains(shader.block));
+            let own = match &cloth {
+                Some((_, cloth)) => Some(filled_buffer(&self.gpu, upload, name, usage, &cloth_uniforms(cloth))?),
+                None => None,
+            };
+            let cloth = cloth.map(|(shader, _)| shader);
+            blocks.extend(cloth.as_ref().zip(own.as_ref()).map(|(shader, own)| (shader.block, own)));
             let tables = cloth.as_ref().map_or(&[][..], |cloth| &cloth.tables);
             let group =
                 self.bind_material(scene, spec, name, &blocks, &surface_maps(&standard, cloth.as_ref()), tables)?;

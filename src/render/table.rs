@@ -1,7 +1,6 @@
 //! Look-up tables: small images that the library brings along, for lobes that have no closed form.
 
 use ash::vk;
-use half::f16;
 
 /// A table: shaders call the texture `<name>_table` and the sampler `<name>_table_sampler`. Linear between texels, held
 /// at the edges.
@@ -11,16 +10,11 @@ pub struct Table {
     pub name: &'static str,
     /// Columns and rows.
     pub size: [u32; 2],
-    /// RGBA, row by row from v = 0.
-    pub texels: fn() -> Vec<[f32; 4]>,
+    /// As the device stores them: four little-endian half floats each, row by row from v = 0.
+    pub texels: &'static [u8],
 }
 
 impl Table {
     /// Every device filters it (Vulkan 1.3, "Required Format Support").
     pub const FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
-
-    /// As the device stores it.
-    pub fn bytes(&self) -> Vec<u8> {
-        (self.texels)().into_iter().flatten().flat_map(|number| f16::from_f32(number).to_le_bytes()).collect()
-    }
 }

@@ -1,6 +1,7 @@
 //! How deep a side of a surface lies: what blended surfaces are sorted by.
 
 use crate::asset::Primitive;
+use crate::math::Aabb;
 use glam::{Mat4, Vec3};
 use std::collections::BTreeMap;
 
@@ -21,7 +22,11 @@ pub enum Side {
 /// The triangles of a primitive, those of like normals taken together: as many as there are directions to face, however
 /// many triangles there are. In object space and rest pose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Patches(Vec<Patch>);
+pub struct Patches {
+    patches: Vec<Patch>,
+    /// Middle of the box around all positions, whether triangles join them or not.
+    pub middle: Vec3,
+}
 
 /// Triangles of like normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +56,8 @@ impl Patches {
             }
         }
         let mean = |patch: Patch| Patch { middle: patch.middle / patch.area, ..patch };
-        Self(groups.into_values().map(mean).collect())
+        let middle = Aabb::around(positions.iter().copied()).center();
+        Self { patches: groups.into_values().map(mean).collect(), middle }
     }
 
     /// Mean depth before the camera of what shows that side, weighted by how much of the picture it takes; of everything
@@ -64,7 +70,7 @@ impl Patches {
         let object_from_world = world_from_object.inverse();
         let eye = object_from_world.transform_point3(camera.eye_in_world());
         let towards = object_from_world.transform_vector3(backwards);
-        for patch in &self.0 {
+        for patch in &self.patches {
             let depth = -(world_from_object.transform_point3(patch.middle) - camera.eye_in_world()).dot(backwards);
             all.add(depth, patch.area);
             let to_eye = if camera.is_orthographic { towards } else { eye - patch.middle };
@@ -125,7 +131,7 @@ mod tests {
     #[test]
     fn the_sides_of_a_ball_lie_before_and_behind_its_middle() {
         let patches = Patches::of(&sphere(1.0, 24));
-        assert!(patches.0.len() <= 6 * 4 * 4, "{}", patches.0.len());
+        assert!(patches.patches.len() <= 6 * 4 * 4, "{}", patches.patches.len());
         let camera = from_the_front();
         let turned = Mat4::from_rotation_translation(Quat::from_rotation_x(1.0), Vec3::Z);
         for (matrix, middle_m) in
@@ -143,7 +149,7 @@ mod tests {
         let patches = Patches::of(&sphere(1.0, 8));
         let flat = Mat4::from_scale(Vec3::new(1.0, 1.0, 0.0));
         assert!((patches.depth_m(Side::Front, flat, &from_the_front()) - 5.0).abs() < 1e-5);
-        let none = Patches(Vec::new());
+        let none = Patches { patches: Vec::new(), middle: Vec3::ZERO };
         assert_eq!(none.depth_m(Side::Back, Mat4::IDENTITY, &from_the_front()), 0.0);
     }
 }

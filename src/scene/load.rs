@@ -12,7 +12,6 @@ use crate::asset::{
 use crate::material::{self, Cloth, Look, Material, Standard, presets};
 use crate::math::{Aabb, Hull};
 use crate::scene::{Instance, instances};
-use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
@@ -64,8 +63,7 @@ impl Scene {
         budget.spend("materials", (asset.materials.len() * size_of::<Material>()) as u64)?;
         let materials = material::from_asset(&mut asset, &mut images_of(folder_of(path), options, &mut budget))
             .map_err(|source| SceneError::Keys { file: path.to_owned(), source: Box::new(source) })?;
-        add_missing_tangents(&mut asset, &materials, &mut budget)?;
-        lint::maps(&mut asset, &materials);
+        complete(&mut asset, &materials, &mut budget)?;
         asset.loaded_bytes = budget.spent_bytes;
         Ok(Self::new(asset, materials))
     }
@@ -98,8 +96,7 @@ impl Scene {
         })?;
         let unlimited = LoadOptions { memory_limit_bytes: u64::MAX, ..LoadOptions::default() };
         let mut budget = Budget::of(&asset, "scene".to_owned(), &unlimited);
-        add_missing_tangents(&mut asset, &materials, &mut budget)?;
-        lint::maps(&mut asset, &materials);
+        complete(&mut asset, &materials, &mut budget)?;
         Ok(Self::new(asset, materials))
     }
 
@@ -110,8 +107,7 @@ impl Scene {
     pub fn apply(&mut self, look: &Look, folder: &Path, options: &LoadOptions) -> Result<(), SceneError> {
         let mut budget = Budget::of(&self.asset, "look".to_owned(), options);
         look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
-        add_missing_tangents(&mut self.asset, &self.materials, &mut budget)?;
-        lint::maps(&mut self.asset, &self.materials);
+        complete(&mut self.asset, &self.materials, &mut budget)?;
         self.asset.loaded_bytes = budget.spent_bytes;
         let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
         *self = Self::new(asset, materials);
@@ -223,12 +219,6 @@ impl Scene {
         *sizes.entry(instance.node).or_insert_with(make)
     }
 
-    /// Middle of an instance's positions, object space.
-    pub fn middle_in_object(&self, instance: &Instance) -> Vec3 {
-        let positions = &self.asset.meshes[instance.mesh].primitives[instance.primitive].vertices.positions;
-        Aabb::around(positions.iter().copied()).center()
-    }
-
     /// The patches of an instance's triangles.
     pub fn patches(&self, instance: &Instance) -> Arc<Patches> {
         let mut patches = self.patches.lock().unwrap_or_else(PoisonError::into_inner);
@@ -299,6 +289,13 @@ fn images_of(folder: &Path, options: &LoadOptions, budget: &mut Budget) -> impl 
 fn new_id() -> u64 {
     static NEXT_ID: AtomicU64 = AtomicU64::new(1);
     NEXT_ID.fetch_add(1, Ordering::Relaxed)
+}
+
+/// What the materials need of the meshes, and warnings for what they cannot have.
+fn complete(asset: &mut Asset, materials: &[Material], budget: &mut Budget) -> Result<(), AssetError> {
+    add_missing_tangents(asset, materials, budget)?;
+    lint::maps(asset, materials);
+    Ok(())
 }
 
 /// A look may put a normal map, or cloth, where the file had none. Threads run along u, or around the vertical where there

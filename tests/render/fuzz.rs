@@ -37,11 +37,17 @@ fn table_lobe(table: &SheenTable, sheet: Sheen, roughness: f32) -> Lobe<'_> {
     Lobe { table, sheet, roughness: roughness.into() }
 }
 
-fn cotton_surface<'a>(table: &'a SheenTable, cotton: &Cotton, material: &Material) -> Surface<'a> {
+/// Diffuse albedo and reflectance of the pile.
+fn base(material: &Material) -> (DVec3, DVec3) {
     let metallic = f64::from(material.metallic);
+    (color(material.base_color) * (1.0 - metallic), DVec3::splat(COTTON_F0).lerp(color(material.base_color), metallic))
+}
+
+fn cotton_surface<'a>(table: &'a SheenTable, cotton: &Cotton, material: &Material) -> Surface<'a> {
+    let (diffuse, pile_color) = base(material);
     Surface {
-        diffuse: color(material.base_color) * (1.0 - metallic),
-        pile_color: DVec3::splat(COTTON_F0).lerp(color(material.base_color), metallic),
+        diffuse,
+        pile_color,
         fibre_color: cotton.sheen_color.as_dvec3(),
         pile: table_lobe(table, cotton.sheen.sheet(), material.roughness),
         fibre: table_lobe(table, cotton.sheen.sheet(), cotton.sheen_roughness),
@@ -49,10 +55,10 @@ fn cotton_surface<'a>(table: &'a SheenTable, cotton: &Cotton, material: &Materia
 }
 
 fn velvet_surface<'a>(table: &'a SheenTable, velvet: &Velvet, material: &Material) -> Surface<'a> {
-    let metallic = f64::from(material.metallic);
+    let (diffuse, pile_color) = base(material);
     Surface {
-        diffuse: color(material.base_color) * (1.0 - metallic),
-        pile_color: DVec3::splat(COTTON_F0).lerp(color(material.base_color), metallic),
+        diffuse,
+        pile_color,
         fibre_color: velvet.scatter_color.as_dvec3(),
         pile: table_lobe(table, velvet.sheen.sheet(), material.roughness),
         fibre: table_lobe(table, velvet.sheen.sheet(), velvet.scatter_roughness()),

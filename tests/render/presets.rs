@@ -21,7 +21,7 @@ fn presets_look_as_the_readme_shows_them() {
         for preset in presets() {
             let scene = Scene::swatch(&preset.name).unwrap_or_else(|error| panic!("{error}"));
             let picture = device.picture(&scene, &options);
-            let name = preset.name.replace(' ', "-");
+            let name = preset.hyphenated();
             let done = match std::env::var_os("VAIR_BLESS") {
                 Some(_) => bless(&folder, &name, &picture, &info),
                 None => compare(&folder, &name, &picture, &limits).map(drop),

@@ -1,9 +1,12 @@
 //! Damask: a figure of flowers and leaves on a ground.
 
 use super::noise::octaves;
-use super::{color, grey};
+use super::{color, edge, grey};
 use crate::asset::Image;
 use glam::{IVec2, Vec2, Vec3};
+
+/// Width of the figure's soft rims, in tiles.
+const RIM: f32 = 0.006;
 
 /// Two staggered flowers of eight petals with a ring of leaves, 1 in the figure.
 pub fn jacquard() -> Image {
@@ -28,17 +31,11 @@ fn figure(point: Vec2) -> f32 {
         let offset = (point - middle + 0.5).rem_euclid(Vec2::ONE) - 0.5;
         let (radius, angle) = (offset.length(), offset.y.atan2(offset.x));
         let petals = 0.13 + 0.05 * (8.0 * angle).cos();
-        let heart = edge(0.035 - radius);
+        let heart = edge(RIM, 0.035 - radius);
         let leaf = 0.255 + 0.055 * (4.0 * angle).cos() + 0.018 * (12.0 * angle).cos();
-        let leaves = edge(0.02 - (radius - leaf).abs()).max(edge(0.012 - (radius - leaf - 0.05).abs()));
-        (edge(petals - radius) - edge(0.006 - (radius - 0.07).abs())).max(heart).max(leaves)
+        let leaves = edge(RIM, 0.02 - (radius - leaf).abs()).max(edge(RIM, 0.012 - (radius - leaf - 0.05).abs()));
+        (edge(RIM, petals - radius) - edge(RIM, 0.006 - (radius - 0.07).abs())).max(heart).max(leaves)
     };
     let uneven = 0.03 * octaves(point, IVec2::splat(64), 2);
     flower(Vec2::splat(0.25)).max(flower(Vec2::splat(0.75))) * 0.94 + 0.03 + uneven
-}
-
-/// 0 to 1 across a soft rim, `inside` in units of the tile.
-fn edge(inside: f32) -> f32 {
-    let x = (inside / 0.006 + 0.5).clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }

@@ -1,6 +1,6 @@
 //! The coat of a leopard.
 
-use super::grey;
+use super::{edge, grey};
 use crate::asset::Image;
 use crate::material::reference::hash::pcg3d;
 use glam::Vec2;
@@ -8,6 +8,8 @@ use std::f32::consts::TAU;
 
 /// Rosettes along each side of the tile.
 const CELLS: i32 = 4;
+/// Width of the spots' soft rims, in cells.
+const RIM: f32 = 0.05;
 
 /// Coat of a leopard: broken rings of dark spots with a warmer heart, as weights in R (1 = spot).
 ///
@@ -43,17 +45,11 @@ fn rosette(offset: Vec2, random: &dyn Fn(u32) -> f32) -> f32 {
     let distance = offset.length();
     // Small rosettes are solid spots; large ones are rings that gaps break up.
     if random(4) < 0.25 {
-        return edge(0.62 * radius - distance);
+        return edge(RIM, 0.62 * radius - distance);
     }
     let breaks = 0.5 + 0.5 * (3.0 * angle + turn(5)).sin() + 0.35 * (5.0 * angle + turn(6)).sin();
     let width = 0.115 * (breaks * 1.6).clamp(0.0, 1.0);
-    edge(width - (distance - radius).abs()).max(0.25 * edge(radius - distance))
-}
-
-/// 0 to 1 across a soft rim of the spot, `inside` in units of cells.
-fn edge(inside: f32) -> f32 {
-    let x = (inside / 0.05 + 0.5).clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
+    edge(RIM, width - (distance - radius).abs()).max(0.25 * edge(RIM, radius - distance))
 }
 
 #[cfg(test)]

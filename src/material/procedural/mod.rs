@@ -106,6 +106,12 @@ fn normals(name: &str, height: impl Fn(Vec2) -> f32) -> Image {
     })
 }
 
+/// 0 to 1 across a soft rim of that width; `inside` is the distance into the spot.
+fn edge(width: f32, inside: f32) -> f32 {
+    let x = (inside / width + 0.5).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

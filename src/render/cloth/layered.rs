@@ -1,12 +1,12 @@
 //! Layered as its shader reads it: maps of a lobe that is off are off, too.
 
 use super::ClothShader;
-use crate::material::{Layered, Standard};
+use crate::material::Layered;
 use crate::render::map::{Map, StandIn};
 use crate::render::material::transform;
 use crate::shader::layout::LayeredUniforms;
 
-pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
+pub fn shader(layered: &Layered) -> ClothShader {
     let switches = [
         ("ANISOTROPY", layered.has_anisotropy()),
         ("IRIDESCENCE", layered.has_iridescence()),
@@ -17,7 +17,6 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
     ClothShader {
         file: "layered.frag",
         block: "LayeredBlock",
-        uniforms: bytemuck::bytes_of(&uniforms(layered)).to_vec(),
         maps: maps(layered),
         constants: switches.map(|(name, on)| (name, on.into())).to_vec(),
         defines: if layered.has_sheen() { &["SHEEN"] } else { &[] },
@@ -28,43 +27,41 @@ pub fn shader(layered: &Layered, _: &Standard) -> ClothShader {
 }
 
 fn maps(layered: &Layered) -> Vec<Map> {
-    let streak = layered.anisotropy_texture.filter(|_| layered.has_anisotropy());
-    let film = |map| Some(layered.has_iridescence()).filter(|on| *on).and(map);
-    let scattered = |map| Some(layered.has_diffuse_transmission()).filter(|on| *on).and(map);
-    let through = layered.transmission_texture.filter(|_| layered.has_transmission());
-    let fuzz = |map| Some(layered.has_sheen()).filter(|on| *on).and(map);
-    let coat = |map| Some(layered.has_clearcoat()).filter(|on| *on).and(map);
+    let has_film = layered.has_iridescence();
+    let has_scattering = layered.has_diffuse_transmission();
+    let has_fuzz = layered.has_sheen();
+    let has_coat = layered.has_clearcoat();
     vec![
         Map::data("specular", "HAS_SPECULAR_MAP", layered.specular_texture),
         Map::color("specular_color", "HAS_SPECULAR_COLOR_MAP", layered.specular_color_texture),
-        Map::data("anisotropy", "HAS_ANISOTROPY_MAP", streak).or(StandIn::NoDirection),
-        Map::data("iridescence", "HAS_IRIDESCENCE_MAP", film(layered.iridescence_texture)),
-        Map::data(
-            "iridescence_thickness",
-            "HAS_IRIDESCENCE_THICKNESS_MAP",
-            film(layered.iridescence_thickness_texture),
-        ),
-        Map::data(
-            "diffuse_transmission",
-            "HAS_DIFFUSE_TRANSMISSION_MAP",
-            scattered(layered.diffuse_transmission_texture),
-        ),
+        Map::data("anisotropy", "HAS_ANISOTROPY_MAP", layered.anisotropy_texture)
+            .when(layered.has_anisotropy())
+            .or(StandIn::NoDirection),
+        Map::data("iridescence", "HAS_IRIDESCENCE_MAP", layered.iridescence_texture).when(has_film),
+        Map::data("iridescence_thickness", "HAS_IRIDESCENCE_THICKNESS_MAP", layered.iridescence_thickness_texture)
+            .when(has_film),
+        Map::data("diffuse_transmission", "HAS_DIFFUSE_TRANSMISSION_MAP", layered.diffuse_transmission_texture)
+            .when(has_scattering),
         Map::color(
             "diffuse_transmission_color",
             "HAS_DIFFUSE_TRANSMISSION_COLOR_MAP",
-            scattered(layered.diffuse_transmission_color_texture),
-        ),
-        Map::data("transmission", "HAS_TRANSMISSION_MAP", through),
-        Map::color("sheen_color", "HAS_SHEEN_COLOR_MAP", fuzz(layered.sheen_color_texture)),
-        Map::data("sheen_roughness", "HAS_SHEEN_ROUGHNESS_MAP", fuzz(layered.sheen_roughness_texture)),
-        Map::data("clearcoat", "HAS_CLEARCOAT_MAP", coat(layered.clearcoat_texture)),
-        Map::data("clearcoat_roughness", "HAS_CLEARCOAT_ROUGHNESS_MAP", coat(layered.clearcoat_roughness_texture)),
-        Map::data("clearcoat_normal", "HAS_CLEARCOAT_NORMAL_MAP", coat(layered.clearcoat_normal_texture))
+            layered.diffuse_transmission_color_texture,
+        )
+        .when(has_scattering),
+        Map::data("transmission", "HAS_TRANSMISSION_MAP", layered.transmission_texture)
+            .when(layered.has_transmission()),
+        Map::color("sheen_color", "HAS_SHEEN_COLOR_MAP", layered.sheen_color_texture).when(has_fuzz),
+        Map::data("sheen_roughness", "HAS_SHEEN_ROUGHNESS_MAP", layered.sheen_roughness_texture).when(has_fuzz),
+        Map::data("clearcoat", "HAS_CLEARCOAT_MAP", layered.clearcoat_texture).when(has_coat),
+        Map::data("clearcoat_roughness", "HAS_CLEARCOAT_ROUGHNESS_MAP", layered.clearcoat_roughness_texture)
+            .when(has_coat),
+        Map::data("clearcoat_normal", "HAS_CLEARCOAT_NORMAL_MAP", layered.clearcoat_normal_texture)
+            .when(has_coat)
             .or(StandIn::FlatNormal),
     ]
 }
 
-fn uniforms(layered: &Layered) -> LayeredUniforms {
+pub fn uniforms(layered: &Layered) -> LayeredUniforms {
     let (sine, cosine) = layered.anisotropy_rotation.to_radians().sin_cos();
     LayeredUniforms {
         specular_color: layered.specular_color.to_array(),

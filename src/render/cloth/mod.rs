@@ -12,7 +12,8 @@ mod velvet;
 
 use super::map::Map;
 use super::table::Table;
-use crate::material::{Cloth, Standard};
+use crate::material::Cloth;
+use bytemuck::bytes_of;
 
 /// What a family adds to the draw of the standard surface.
 #[derive(Debug, Clone)]
@@ -21,8 +22,6 @@ pub struct ClothShader {
     pub file: &'static str,
     /// GLSL name of its uniform block, in set 1.
     pub block: &'static str,
-    /// The block's bytes.
-    pub uniforms: Vec<u8>,
     /// Its own maps.
     pub maps: Vec<Map>,
     /// Specialization constants beside those of the maps, by GLSL name; those that are 0 may be left out.
@@ -37,15 +36,28 @@ pub struct ClothShader {
     pub reads_rest: bool,
 }
 
-/// The shader of a cloth over its standard parameters.
-pub fn cloth_shader(cloth: &Cloth, standard: &Standard) -> ClothShader {
+/// How a cloth is drawn.
+pub fn cloth_shader(cloth: &Cloth) -> ClothShader {
     match cloth {
-        Cloth::Gauze(gauze) => gauze::shader(gauze, standard),
-        Cloth::Laser(laser) => laser::shader(laser, standard),
-        Cloth::Glint(glint) => glint::shader(glint, standard),
-        Cloth::Cotton(cotton) => cotton::shader(cotton, standard),
-        Cloth::Satin(satin) => satin::shader(satin, standard),
-        Cloth::Velvet(velvet) => velvet::shader(velvet, standard),
-        Cloth::Layered(layered) => layered::shader(layered, standard),
+        Cloth::Gauze(gauze) => gauze::shader(gauze),
+        Cloth::Laser(laser) => laser::shader(laser),
+        Cloth::Glint(glint) => glint::shader(glint),
+        Cloth::Cotton(cotton) => cotton::shader(cotton),
+        Cloth::Satin(satin) => satin::shader(satin),
+        Cloth::Velvet(velvet) => velvet::shader(velvet),
+        Cloth::Layered(layered) => layered::shader(layered),
+    }
+}
+
+/// The bytes of its uniform block.
+pub fn cloth_uniforms(cloth: &Cloth) -> Vec<u8> {
+    match cloth {
+        Cloth::Gauze(gauze) => bytes_of(&gauze::uniforms(gauze)).to_vec(),
+        Cloth::Laser(laser) => bytes_of(&laser::uniforms(laser)).to_vec(),
+        Cloth::Glint(glint) => bytes_of(&glint::uniforms(glint)).to_vec(),
+        Cloth::Cotton(cotton) => bytes_of(&cotton::uniforms(cotton)).to_vec(),
+        Cloth::Satin(satin) => bytes_of(&satin::uniforms(satin)).to_vec(),
+        Cloth::Velvet(velvet) => bytes_of(&velvet::uniforms(velvet)).to_vec(),
+        Cloth::Layered(layered) => bytes_of(&layered::uniforms(layered)).to_vec(),
     }
 }

@@ -31,12 +31,11 @@ fn place(draw: Draw, frame: &Frame) -> Placed {
         Some(skin) => mean_joint(frame, instance, skin),
         None => instance.world_from_object,
     };
-    let middle_in_world = carrier.transform_point3(frame.scene.middle_in_object(instance));
+    let patches = frame.scene.patches(instance);
+    let middle_in_world = carrier.transform_point3(patches.middle);
     let primitive = &frame.scene.asset().meshes[instance.mesh].primitives[instance.primitive];
     let depth_m = match draw.faces {
-        Faces::One(side) if primitive.topology == Topology::Triangles => {
-            frame.scene.patches(instance).depth_m(side, carrier, camera)
-        }
+        Faces::One(side) if primitive.topology == Topology::Triangles => patches.depth_m(side, carrier, camera),
         _ => (camera.eye_in_world() - middle_in_world).dot(camera.backwards_in_world()),
     };
     Placed { draw, depth_m, middle_in_world }

@@ -51,20 +51,6 @@ pub(super) const TWINS: &[Twin] = &[
         let (f0, white) = (given.vec3(), given.number());
         (1.0 + f0 * (1.0 - white) / white.max(1e-3)).to_array().to_vec()
     }),
-    Twin::new("standard_compensated_albedo", &[UNIT, UNIT], |given| {
-        let (f0, terms) = (given.vec3(), given.vec2());
-        // (F0 + (1 - F0) Q) E1 (1 + F0 (1 - E1) / E1)
-        (f0.lerp(DVec3::ONE, terms.y) * f0.lerp(DVec3::ONE, terms.x)).to_array().to_vec()
-    }),
-    Twin::new("standard_average_compensated_albedo", &[UNIT, UNIT], |given| {
-        let (f0, terms) = (given.vec3(), given.vec3());
-        let average = |f0: f64| {
-            // The average of (Q + F0 (1 - Q)) (E1 + F0 (1 - E1)), term by term.
-            let (both, white, fresnel) = (terms.x, terms.y, terms.z);
-            both + f0 * (fresnel - both) + f0 * (white - both) + f0 * f0 * (1.0 - white - fresnel + both)
-        };
-        f0.to_array().map(average).to_vec()
-    }),
     Twin::new("compensated_albedo", &[UNIT, UNIT, UNIT], |given| {
         let (f0, f90, terms) = (given.vec3(), given.number(), given.vec2());
         (f0.lerp(DVec3::splat(f90), terms.y) * f0.lerp(DVec3::ONE, terms.x)).to_array().to_vec()

@@ -2,7 +2,7 @@
 
 use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::Twin;
-use super::sheen::{AVERAGE, AXIS, FLOORED_ALPHA, LAMBDA, Lobe, TRANSFORM};
+use super::sheen::{Lobe, around_two_lobes};
 use crate::material::Sheen;
 use crate::material::reference::{fuzz, ggx};
 use std::f64::consts::PI;
@@ -14,24 +14,7 @@ pub(super) const TWINS: &[Twin] = &[
     }),
     Twin::new(
         "cotton_classic_brdf_times_cosine",
-        &[
-            UNIT,
-            UNIT,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            Domain::Hemisphere,
-            Domain::Hemisphere,
-        ],
+        around_two_lobes!([UNIT, UNIT], [Domain::Hemisphere, Domain::Hemisphere]),
         |given| {
             let (base_color, sheen_color) = (given.vec3(), given.vec3());
             let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
@@ -46,39 +29,17 @@ pub(super) const TWINS: &[Twin] = &[
             (base * scale + sheen_color * lobe(&fibre)).to_array().to_vec()
         },
     ),
-    Twin::new(
-        "cotton_classic_ambient",
-        &[
-            UNIT,
-            UNIT,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            COSINE,
-            ROUGHNESS,
-            UNIT,
-        ],
-        |given| {
-            let (base_color, sheen_color) = (given.vec3(), given.vec3());
-            let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
-            let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
-            let scale = 1.0 - sheen_color.max_element() * fibre.albedo;
-            let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
-            let channel = |at: usize| {
-                base_color[at] * scale * occlusion
-                    + 0.04 * pile.albedo * fuzz::bounced_occlusion(seen(roughness.x), 0.04)
-                    + sheen_color[at] * fibre.albedo * fuzz::bounced_occlusion(seen(roughness.y), sheen_color[at])
-            };
-            vec![channel(0), channel(1), channel(2)]
-        },
-    ),
+    Twin::new("cotton_classic_ambient", around_two_lobes!([UNIT, UNIT], [COSINE, ROUGHNESS, UNIT]), |given| {
+        let (base_color, sheen_color) = (given.vec3(), given.vec3());
+        let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
+        let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
+        let scale = 1.0 - sheen_color.max_element() * fibre.albedo;
+        let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
+        let channel = |at: usize| {
+            base_color[at] * scale * occlusion
+                + 0.04 * pile.albedo * fuzz::bounced_occlusion(seen(roughness.x), 0.04)
+                + sheen_color[at] * fibre.albedo * fuzz::bounced_occlusion(seen(roughness.y), sheen_color[at])
+        };
+        vec![channel(0), channel(1), channel(2)]
+    }),
 ];

@@ -2,7 +2,7 @@
 
 use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::{Given, Twin};
-use super::sheen::{AVERAGE, AXIS, FLOORED_ALPHA, LAMBDA, Lobe, MODEL, TRANSFORM};
+use super::sheen::{Lobe, MODEL, around_two_lobes};
 use crate::material::reference::fuzz;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -40,61 +40,19 @@ impl Surface {
 const FLAG: Domain = Domain::Choice(&[0, 1]);
 
 pub(super) const TWINS: &[Twin] = &[
-    Twin::new(
-        "fuzz_surface",
-        &[
-            UNIT,
-            UNIT,
-            UNIT,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-        ],
-        |given| {
-            let (diffuse, pile_color, fibre_color) = (given.vec3(), given.vec3(), given.vec3());
-            let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
-            let seen = pile_color * (1.0 - fibre_color);
-            let of_both = |pile: f64, fibre: f64| seen * pile + fibre_color * fibre;
-            let left = 1.0 - of_both(pile.albedo, fibre.albedo);
-            let average = 1.0 - of_both(pile.average, fibre.average);
-            let coupled_diffuse = diffuse / PI * left / average.max(DVec3::splat(1e-4));
-            Surface { diffuse, coupled_diffuse, pile_color: seen, fibre_color, pile, fibre }.words()
-        },
-    ),
+    Twin::new("fuzz_surface", around_two_lobes!([UNIT, UNIT, UNIT], []), |given| {
+        let (diffuse, pile_color, fibre_color) = (given.vec3(), given.vec3(), given.vec3());
+        let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
+        let seen = pile_color * (1.0 - fibre_color);
+        let of_both = |pile: f64, fibre: f64| seen * pile + fibre_color * fibre;
+        let left = 1.0 - of_both(pile.albedo, fibre.albedo);
+        let average = 1.0 - of_both(pile.average, fibre.average);
+        let coupled_diffuse = diffuse / PI * left / average.max(DVec3::splat(1e-4));
+        Surface { diffuse, coupled_diffuse, pile_color: seen, fibre_color, pile, fibre }.words()
+    }),
     Twin::new(
         "fuzz_brdf_times_cosine",
-        &[
-            MODEL,
-            FLAG,
-            UNIT,
-            UNIT,
-            UNIT,
-            UNIT,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            Domain::Hemisphere,
-            Domain::Hemisphere,
-            UNIT,
-        ],
+        around_two_lobes!([MODEL, FLAG, UNIT, UNIT, UNIT, UNIT], [Domain::Hemisphere, Domain::Hemisphere, UNIT]),
         |given| {
             let (model, has_fibre, surface) = (given.uint(), given.uint() != 0, Surface::new(given));
             let (v, l, albedo_l) = (given.vec3(), given.vec3(), given.vec2());
@@ -115,42 +73,18 @@ pub(super) const TWINS: &[Twin] = &[
         let (occlusion, color) = (given.number(), given.vec3());
         color.to_array().map(|color| fuzz::bounced_occlusion(occlusion, color)).to_vec()
     }),
-    Twin::new(
-        "fuzz_ambient",
-        &[
-            UNIT,
-            UNIT,
-            UNIT,
-            UNIT,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            UNIT,
-            AVERAGE,
-            TRANSFORM,
-            AXIS,
-            FLOORED_ALPHA,
-            LAMBDA,
-            COSINE,
-            ROUGHNESS,
-            UNIT,
-        ],
-        |given| {
-            let surface = Surface::new(given);
-            let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
-            let bounced = |share: f64, color: DVec3| {
-                DVec3::from_array(color.to_array().map(|color| fuzz::bounced_occlusion(share, color)))
-            };
-            let pile = surface.pile_color * surface.pile.albedo;
-            let fibre = surface.fibre_color * surface.fibre.albedo;
-            let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
-            let sum = pile * bounced(seen(roughness.x), surface.pile_color)
-                + fibre * bounced(seen(roughness.y), surface.fibre_color)
-                + surface.diffuse * (1.0 - pile - fibre) * bounced(occlusion, surface.diffuse);
-            sum.to_array().to_vec()
-        },
-    ),
+    Twin::new("fuzz_ambient", around_two_lobes!([UNIT, UNIT, UNIT, UNIT], [COSINE, ROUGHNESS, UNIT]), |given| {
+        let surface = Surface::new(given);
+        let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
+        let bounced = |share: f64, color: DVec3| {
+            DVec3::from_array(color.to_array().map(|color| fuzz::bounced_occlusion(share, color)))
+        };
+        let pile = surface.pile_color * surface.pile.albedo;
+        let fibre = surface.fibre_color * surface.fibre.albedo;
+        let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
+        let sum = pile * bounced(seen(roughness.x), surface.pile_color)
+            + fibre * bounced(seen(roughness.y), surface.fibre_color)
+            + surface.diffuse * (1.0 - pile - fibre) * bounced(occlusion, surface.diffuse);
+        sum.to_array().to_vec()
+    }),
 ];

@@ -37,6 +37,20 @@ pub(super) const AVERAGE: Domain = Domain::Uniform(0.0, 0.5, &[0.0, 1e-8, 0.5]);
 /// Charlie's Lambda.
 pub(super) const LAMBDA: Domain = Domain::Log(1e-6, 1e6, &[0.0, 1e-6, 1e6]);
 
+/// Domains of a function that takes the lobes of pile and fibre (two `SheenLobe`) between other arguments.
+macro_rules! around_two_lobes {
+    ([$($before:expr),* $(,)?], [$($after:expr),* $(,)?]) => {{
+        use super::sheen::{AVERAGE, AXIS, FLOORED_ALPHA, LAMBDA, TRANSFORM};
+        &[
+            $($before,)*
+            UNIT, AVERAGE, TRANSFORM, AXIS, FLOORED_ALPHA, LAMBDA,
+            UNIT, AVERAGE, TRANSFORM, AXIS, FLOORED_ALPHA, LAMBDA,
+            $($after,)*
+        ]
+    }};
+}
+pub(super) use around_two_lobes;
+
 impl Lobe {
     pub(super) fn new(given: &mut Given<'_>) -> Self {
         Self {
