@@ -73,7 +73,7 @@ fn build() -> Result<(), Vec<String>> {
         let folder = out.join("functions");
         let permutations = function_shader::write(&library, &folder)?;
         let shaders = build_all(permutations, &Sources { folder: folder.clone(), root, out: folder })?;
-        write(&out.join("shader_functions.rs"), &function_shader::table(&library, &shaders)?)?;
+        write(&out.join("functions/shader_functions.rs"), &function_shader::table(&library, &shaders)?)?;
     }
     Ok(())
 }
@@ -97,7 +97,9 @@ fn build_all(permutations: Vec<Permutation>, sources: &Sources) -> Result<Vec<Bu
     let next = AtomicUsize::new(0);
     let work = || {
         let mut done = Vec::new();
-        while let Some(permutation) = permutations.get(next.fetch_add(1, Ordering::Relaxed)) {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(permutation) = permutations.get(index) else { break };
             let build = || {
                 let glsl = include::expand(permutation, &sources.folder, sources.root)?;
                 let spirv = compiler.compile(permutation, &glsl, &sources.out)?;
@@ -105,7 +107,7 @@ fn build_all(permutations: Vec<Permutation>, sources: &Sources) -> Result<Vec<Bu
                 Ok((permutation.clone(), spirv, interface))
             };
             let result = build();
-            done.push((permutation.line, result));
+            done.push((index, result));
         }
         done
     };
@@ -116,7 +118,7 @@ fn build_all(permutations: Vec<Permutation>, sources: &Sources) -> Result<Vec<Bu
     if results.len() != permutations.len() {
         return Err(vec!["a shader thread of build.rs panicked: see the output above".to_owned()]);
     }
-    results.sort_by_key(|(line, _)| *line);
+    results.sort_by_key(|(index, _)| *index);
     let mut built = Vec::new();
     // One mistake shows in every permutation of its file: say it once.
     let mut errors: Vec<(String, Vec<String>)> = Vec::new();

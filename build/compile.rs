@@ -30,6 +30,8 @@ mod backend {
     pub(crate) struct Compiler {
         program: OsString,
         keeps_debug_info: bool,
+        /// Of the program, and what it is asked for.
+        version: String,
     }
 
     impl Compiler {
@@ -37,7 +39,12 @@ mod backend {
         pub(crate) fn find() -> Result<Self, String> {
             let program = std::env::var_os("VAIR_GLSLANG").unwrap_or_else(|| "glslangValidator".into());
             match Command::new(&program).arg("--version").output() {
-                Ok(_) => Ok(Self { program, keeps_debug_info: std::env::var_os("VAIR_SHADER_DEBUG").is_some() }),
+                Ok(output) => {
+                    let keeps_debug_info = std::env::var_os("VAIR_SHADER_DEBUG").is_some();
+                    let first = String::from_utf8_lossy(&output.stdout);
+                    let version = format!("{} {keeps_debug_info}", first.lines().next().unwrap_or_default());
+                    Ok(Self { program, keeps_debug_info, version })
+                }
                 Err(error) => Err(format!(
                     "cannot run the shader compiler `{}`: {error}; install the Debian package glslang-tools, name one \
                      in VAIR_GLSLANG, or build with --features bundled-glslang",
@@ -46,7 +53,8 @@ mod backend {
             }
         }
 
-        /// SPIR-V words of one permutation of the expanded `glsl`; keeps both in `out`.
+        /// SPIR-V words of one permutation of the expanded `glsl`; keeps both in `out`, and compiles again only what has
+        /// changed since.
         pub(crate) fn compile(&self, permutation: &Permutation, glsl: &str, out: &Path) -> Result<Vec<u32>, String> {
             let stage = match permutation.stage() {
                 Some(Stage::Vertex) => "vert",
@@ -57,6 +65,14 @@ mod backend {
             let source = out.join(format!("{}.glsl", permutation.name()));
             let target = out.join(format!("{}.spv", permutation.name()));
             let failed = |error: std::io::Error| format!("{}: {error}", permutation.name());
+            let glsl = &format!("{glsl}// {}\n", self.version);
+            if std::fs::read_to_string(&source).is_ok_and(|before| before == *glsl)
+                && let Ok(bytes) = std::fs::read(&target)
+            {
+                return Ok(words(&bytes));
+            }
+            // What is left of a failure must not pass for what these lines give.
+            let _ = std::fs::remove_file(&target);
             std::fs::write(&source, glsl).map_err(failed)?;
             let mut command = Command::new(&self.program);
             command.args(["-V", "--quiet", "--target-env", "vulkan1.1", "-S", stage]);
@@ -68,10 +84,12 @@ mod backend {
                 let log = [output.stdout, output.stderr].concat();
                 return Err(readable(&String::from_utf8_lossy(&log), permutation));
             }
-            let bytes = std::fs::read(&target).map_err(failed)?;
-            let words = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
-            Ok(words.collect())
+            Ok(words(&std::fs::read(&target).map_err(failed)?))
         }
+    }
+
+    fn words(bytes: &[u8]) -> Vec<u32> {
+        bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
     }
 }
 
@@ -90,8 +108,8 @@ mod backend {
             glslang::Compiler::acquire().map(Self).ok_or_else(|| "the bundled glslang did not start".to_owned())
         }
 
-        /// SPIR-V words of one permutation of the expanded `glsl`.
-        pub(crate) fn compile(&self, permutation: &Permutation, glsl: &str, _out: &Path) -> Result<Vec<u32>, String> {
+        /// SPIR-V words of one permutation of the expanded `glsl`, kept in `out`.
+        pub(crate) fn compile(&self, permutation: &Permutation, glsl: &str, out: &Path) -> Result<Vec<u32>, String> {
             let stage = match permutation.stage() {
                 Some(Stage::Vertex) => ShaderStage::Vertex,
                 Some(Stage::Fragment) => ShaderStage::Fragment,
@@ -104,7 +122,11 @@ mod backend {
             let failed = |error: GlslangError| readable(&error.to_string(), permutation);
             let input = ShaderInput::new::<(&str, Option<&str>)>(&source, stage, &options, None, None);
             let shader = self.0.create_shader(input.map_err(failed)?).map_err(failed)?;
-            shader.compile().map_err(failed)
+            let words = shader.compile().map_err(failed)?;
+            let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            let target = out.join(format!("{}.spv", permutation.name()));
+            std::fs::write(target, bytes).map_err(|error| format!("{}: {error}", permutation.name()))?;
+            Ok(words)
         }
     }
 }

@@ -88,8 +88,7 @@ fn component(ty: &str, at: u32) -> String {
 
 /// Rust text of `src/shader/function.rs`: the shaders, and `ALL` functions with what they take and give.
 pub(crate) fn table(library: &Library, shaders: &[(Permutation, Vec<u32>, Interface)]) -> Result<String, Vec<String>> {
-    let mut text: String =
-        shaders.iter().map(|(permutation, spirv, shader)| table::one(permutation, spirv, shader)).collect();
+    let mut text: String = shaders.iter().map(|(permutation, _, shader)| table::one(permutation, shader)).collect();
     text.push_str("/// Every function of `shaders_glsl/lib`, by file.\npub static ALL: &[Function] = &[\n");
     for (function, (permutation, ..)) in library.functions.iter().zip(shaders) {
         let parts = function.parameters.iter().map(|parameter| library.flatten(&parameter.ty, &parameter.name));

@@ -69,25 +69,39 @@ pub(crate) fn parse(text: &str) -> Result<Vec<Permutation>, Vec<String>> {
     for (line, text) in (1..).zip(text.lines()) {
         let mut words = text.split('#').next().unwrap_or_default().split_whitespace();
         let Some(file) = words.next() else { continue };
-        let defines = words.map(|word| match word.split_once('=') {
-            Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
-            None => (word.to_owned(), None),
-        });
-        let permutation = Permutation { file: file.to_owned(), defines: defines.collect(), line };
-        let mut refuse = |why: String| errors.push(format!("shaders_glsl/permutations:{line}: {why}"));
-        if permutation.stage().is_none() {
-            refuse(format!("`{file}` must end in .vert, .frag or .comp"));
-        } else if !permutation.ident().starts_with(|first: char| first.is_ascii_alphabetic()) {
-            refuse(format!("`{file}` must start with a letter"));
-        } else if let Some((name, _)) = permutation.defines.iter().find(|(name, _)| !is_identifier(name)) {
-            refuse(format!("`{name}` is not the name of a define"));
-        } else if let Some(first) = lines_of_ident.insert(permutation.ident(), line) {
-            refuse(format!("`{}` has the same Rust name as line {first}", permutation.name()));
-        } else {
-            permutations.push(permutation);
+        for defines in products(words) {
+            let permutation = Permutation { file: file.to_owned(), defines, line };
+            let mut refuse = |why: String| errors.push(format!("shaders_glsl/permutations:{line}: {why}"));
+            if permutation.stage().is_none() {
+                refuse(format!("`{file}` must end in .vert, .frag or .comp"));
+            } else if !permutation.ident().starts_with(|first: char| first.is_ascii_alphabetic()) {
+                refuse(format!("`{file}` must start with a letter"));
+            } else if let Some((name, _)) = permutation.defines.iter().find(|(name, _)| !is_identifier(name)) {
+                refuse(format!("`{name}` is not the name of a define"));
+            } else if let Some(first) = lines_of_ident.insert(permutation.ident(), line) {
+                refuse(format!("`{}` has the same Rust name as line {first}", permutation.name()));
+            } else {
+                permutations.push(permutation);
+            }
         }
     }
     if errors.is_empty() { Ok(permutations) } else { Err(errors) }
+}
+
+/// Defines of a line; each `[WORD]` doubles them: without it and with it.
+fn products<'a>(words: impl Iterator<Item = &'a str>) -> Vec<Vec<(String, Option<String>)>> {
+    let mut products = vec![Vec::new()];
+    for word in words {
+        let optional = word.strip_prefix('[').and_then(|word| word.strip_suffix(']'));
+        let define = match optional.unwrap_or(word).split_once('=') {
+            Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
+            None => (optional.unwrap_or(word).to_owned(), None),
+        };
+        let without = if optional.is_some() { products.clone() } else { Vec::new() };
+        products.iter_mut().for_each(|product| product.push(define.clone()));
+        products.splice(0..0, without);
+    }
+    products
 }
 
 fn is_identifier(text: &str) -> bool {

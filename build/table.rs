@@ -2,19 +2,18 @@
 
 use super::interface::{Binding, Interface, Slot, SpecConstant};
 use super::permutation::{Permutation, Stage};
-use std::fmt::Write;
 
 /// Rust text of `src/shader/table.rs`: one static a permutation, and `ALL`.
 pub(crate) fn generate(shaders: &[(Permutation, Vec<u32>, Interface)]) -> String {
-    let statics: String = shaders.iter().map(|(permutation, spirv, shader)| one(permutation, spirv, shader)).collect();
+    let statics: String = shaders.iter().map(|(permutation, _, shader)| one(permutation, shader)).collect();
     let all: String = shaders.iter().map(|(permutation, ..)| format!("    &{},\n", permutation.ident())).collect();
     format!(
         "{statics}/// Every permutation, in the order of the list.\npub static ALL: &[&super::Shader] = &[\n{all}];\n"
     )
 }
 
-/// Rust text of one static.
-pub(crate) fn one(permutation: &Permutation, spirv: &[u32], shader: &Interface) -> String {
+/// Rust text of one static, which lies beside its SPIR-V.
+pub(crate) fn one(permutation: &Permutation, shader: &Interface) -> String {
     let name = permutation.name();
     let stage = permutation.stage();
     let bindings = list(&shader.bindings, |Binding { set, binding, name, kind }| {
@@ -34,32 +33,23 @@ pub(crate) fn one(permutation: &Permutation, spirv: &[u32], shader: &Interface) 
     let push_constant_bytes = shader.push_constant_bytes;
     let workgroup_size = shader.workgroup_size;
     let ident = permutation.ident();
+    let spirv = format!("{name}.spv");
     format!(
         "/// `{name}`.
 pub static {ident}: super::Shader = super::Shader {{
     name: {name:?},
     stage: super::Stage::{stage},
-    spirv: &[{}],
+    spirv: include_bytes!({spirv:?}),
     bindings: &[{bindings}],
     push_constant_bytes: {push_constant_bytes},
     constants: &[{constants}],
     inputs: &[{inputs}],
     workgroup_size: {workgroup_size:?},
 }};
-",
-        words(spirv)
+"
     )
 }
 
 fn list<T>(items: &[T], text: impl Fn(&T) -> String) -> String {
     items.iter().map(text).collect::<Vec<_>>().join(", ")
-}
-
-fn words(spirv: &[u32]) -> String {
-    let mut text = String::with_capacity(spirv.len() * 12);
-    for word in spirv {
-        // Writing to a String cannot fail.
-        let _ = write!(text, "{word:#x},");
-    }
-    text
 }

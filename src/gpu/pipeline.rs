@@ -148,7 +148,8 @@ struct StageParts<'a> {
 
 impl<'a> StageParts<'a> {
     fn new(context: &'a Context, shader: &'static Shader, constants: &[(u32, u32)]) -> Result<Self, GpuError> {
-        let info = vk::ShaderModuleCreateInfo::default().code(shader.spirv);
+        let words: Vec<u32> = bytemuck::pod_collect_to_vec(shader.spirv);
+        let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the shader table holds what the SPIR-V compiler wrote for this API version.
         let module = unsafe { context.device.create_shader_module(&info, None) }
             .map_err(|result| GpuError::from_vk("creating shader", shader.name, result))?;

@@ -42,4 +42,4 @@ pub enum Scalar {
     Bool,
 }
 
-include!(concat!(env!("OUT_DIR"), "/shader_functions.rs"));
+include!(concat!(env!("OUT_DIR"), "/functions/shader_functions.rs"));

@@ -16,8 +16,8 @@ pub struct Shader {
     pub name: &'static str,
     /// Stage.
     pub stage: Stage,
-    /// SPIR-V words; the entry point is `main`.
-    pub spirv: &'static [u32],
+    /// SPIR-V, little-endian words; the entry point is `main`.
+    pub spirv: &'static [u8],
     /// Descriptors, ordered by (set, binding).
     pub bindings: &'static [Binding],
     /// Bytes of push constants, 0 without.

@@ -5,14 +5,12 @@ use std::process::Command;
 use vair::shader::Stage;
 
 /// Compiles `source` and gives its words for the rest of the test run.
-pub(crate) fn compile(name: &str, stage: Stage, source: &str) -> &'static [u32] {
+pub(crate) fn compile(name: &str, stage: Stage, source: &str) -> &'static [u8] {
     let dir = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
     let (input, output) = (dir.path().join(name), dir.path().join("out.spv"));
     std::fs::write(&input, source).unwrap();
     run(&input, &output, stage);
-    let bytes = std::fs::read(&output).unwrap();
-    let words: Vec<u32> = bytes.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
-    words.leak()
+    std::fs::read(&output).unwrap().leak()
 }
 
 fn run(input: &Path, output: &Path, stage: Stage) {
