@@ -27,4 +27,5 @@ pub mod standard;
 pub mod strand;
 pub mod sway;
 pub mod tonemap;
+pub mod transparency;
 pub mod uv;
