@@ -45,7 +45,7 @@ pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use material_extension::{
-    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission,
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission, Volume,
 };
 pub use model::*;
 pub use tangent::{
