@@ -14,10 +14,10 @@ struct TransparencyEntry {
 };
 
 // Fragments of this frame, those among them that no entry was left for.
-layout(set = 3, binding = 0, std430) buffer TransparencyCount { uint fragment_count; };
+layout(set = 3, binding = 2, std430) buffer TransparencyCount { uint fragment_count; };
 // The last entry of each pixel, row by row, counted from 1; 0 = none.
-layout(set = 3, binding = 1, std430) buffer TransparencyHeads { uint heads[]; };
-layout(set = 3, binding = 2, std430) buffer TransparencyEntries {
+layout(set = 3, binding = 3, std430) buffer TransparencyHeads { uint heads[]; };
+layout(set = 3, binding = 4, std430) buffer TransparencyEntries {
     uint width;                // pixels
     uint capacity;             // entries that there are
     TransparencyEntry entries[];

@@ -152,6 +152,6 @@ void main() {
         opacity = gauze_opacity(depth);
         sum = reflected(f, t, depth);
     }
-    radiance = vec4(min((sum + f.emissive * opacity) * cover, vec3(RADIANCE_LIMIT)), opacity * cover);
+    surface_output((sum + f.emissive * opacity) * cover, vec3(1.0 - opacity * cover));
     surface_cover(mask);
 }

@@ -292,7 +292,7 @@ void main() {
         }
         sum += light.irradiance * seen;
     }
-    surface_write(f, sum, surface_opacity(color.a));
-    radiance.a *= 1.0 - through;
+    float opacity = surface_opacity(color.a);
+    surface_output(min(sum + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0) - opacity * (vec3(1.0) - through));
     surface_cover(mask);
 }

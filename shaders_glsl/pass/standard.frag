@@ -14,7 +14,7 @@ void main() {
     count_fragment(uint(mask), samples, mode != 2u);
     radiance = vec4(1.0);
 #elif defined UNLIT
-    radiance = vec4(color.rgb * opacity, opacity);
+    surface_output(color.rgb * opacity, vec3(1.0 - opacity));
 #else
     SurfaceFragment f = surface_fragment(color);
     StandardSurface surface = standard_surface(f.base_color, f.metallic, f.roughness, f.eye_in_tangent.z);

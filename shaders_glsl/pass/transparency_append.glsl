@@ -10,17 +10,20 @@ layout(early_fragment_tests) in;
 // Highest rank that an entry keeps.
 const uint MAX_RANK = 1023u;
 
-// What goes to the colour target: nothing, or all of it where the list is full. Premultiplied radiance; of what lies at
-// one depth, the higher rank is over the others. Call it where all neighbours still run.
-vec4 list_append(vec3 radiance, vec3 transmittance, uint samples, uint rank) {
-    float depth = gl_FragCoord.z;
-    vec2 slope = vec2(dFdx(depth), dFdy(depth)) / max(depth, 1e-30);
+// What depth changes by to the next pixels, over itself. Call it where all neighbours still run.
+vec2 list_slope() {
+    return vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)) / max(gl_FragCoord.z, 1e-30);
+}
+
+// What goes to the colour target: nothing, or all of it where no entry is left. Premultiplied radiance; of what lies at
+// one depth, the higher rank is over the others.
+vec4 list_append(vec3 radiance, vec3 transmittance, vec2 slope, uint samples, uint rank) {
     if (samples == 0u || (radiance == vec3(0.0) && transmittance == vec3(1.0))) { return vec4(0.0); }
     uint index = atomicAdd(fragment_count, 1u);
     if (index >= capacity) { return vec4(radiance, 1.0 - (transmittance.r + transmittance.g + transmittance.b) / 3.0); }
     uint pixel = uint(gl_FragCoord.y) * width + uint(gl_FragCoord.x);
     uint kept = min(rank, MAX_RANK);
-    entries[index].depth = depth;
+    entries[index].depth = gl_FragCoord.z;
     entries[index].slope = packHalf2x16(clamp(slope, -1e4, 1e4));
     entries[index].red = transparency_packed(radiance.r, transmittance.r, samples);
     entries[index].green = transparency_packed(radiance.g, transmittance.g, kept & 31u);

@@ -140,8 +140,17 @@ pub struct DiffuseTransmission {
 impl MaterialExtensions {
     /// Every texture that they name.
     pub fn textures(&self) -> impl Iterator<Item = TextureRef> {
-        let Self { sheen, clearcoat, anisotropy, iridescence, specular, ior: _, transmission, volume, diffuse_transmission } =
-            self;
+        let Self {
+            sheen,
+            clearcoat,
+            anisotropy,
+            iridescence,
+            specular,
+            ior: _,
+            transmission,
+            volume,
+            diffuse_transmission,
+        } = self;
         let sheen = sheen.iter().flat_map(|sheen| [sheen.color_texture, sheen.roughness_texture]);
         let coat = clearcoat.iter().flat_map(|coat| [coat.texture, coat.roughness_texture, coat.normal_texture]);
         let anisotropy = anisotropy.iter().map(|anisotropy| anisotropy.texture);
@@ -150,7 +159,15 @@ impl MaterialExtensions {
         let through = transmission.iter().map(|through| through.texture);
         let inside = volume.iter().map(|volume| volume.thickness_texture);
         let scattered = diffuse_transmission.iter().flat_map(|through| [through.texture, through.color_texture]);
-        sheen.chain(coat).chain(anisotropy).chain(film).chain(specular).chain(through).chain(inside).chain(scattered).flatten()
+        sheen
+            .chain(coat)
+            .chain(anisotropy)
+            .chain(film)
+            .chain(specular)
+            .chain(through)
+            .chain(inside)
+            .chain(scattered)
+            .flatten()
     }
 }
 
@@ -261,7 +278,10 @@ impl Extension<'_> {
     fn transmission(&self) -> Result<Transmission, AssetError> {
         let factor = self.share("transmissionFactor", 0.0)?;
         if factor > 0.0 {
-            self.warn("transmissionFactor", "is shown thin: what lies behind is tinted, and neither refracted, blurred nor dispersed");
+            self.warn(
+                "transmissionFactor",
+                "is shown thin: what lies behind is tinted, and neither refracted, blurred nor dispersed",
+            );
         }
         Ok(Transmission { factor, texture: self.texture("transmissionTexture")? })
     }
@@ -269,7 +289,10 @@ impl Extension<'_> {
     fn volume(&self) -> Result<Volume, AssetError> {
         let attenuation_distance_m = match self.number("attenuationDistance", ANY, (0.0, ANY))? {
             0.0 => {
-                self.warn("attenuationDistance", "is 0, at which nothing could be seen: absorbs nothing; make it larger");
+                self.warn(
+                    "attenuationDistance",
+                    "is 0, at which nothing could be seen: absorbs nothing; make it larger",
+                );
                 ANY
             }
             distance_m => distance_m,

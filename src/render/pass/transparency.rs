@@ -14,7 +14,8 @@ use super::Frame;
 use crate::gpu::{
     BindGroup, Buffer, ColorTarget, Encoder, Gpu, GpuError, Load, Memory, Pipeline, RenderPassDesc, Resource,
 };
-use crate::render::plan::Pass;
+use crate::render::plan::{Pass, Plan};
+use crate::render::resources::Resources;
 use crate::render::targets::Targets;
 use crate::shader::layout::{TransparencyEntries, TransparencyEntry};
 use ash::vk;
@@ -30,6 +31,7 @@ pub struct Lists {
     heads: Buffer,
     entries: Buffer,
     readback: Buffer,
+    has_count: bool,
 }
 
 impl Lists {
@@ -63,7 +65,13 @@ impl Lists {
             count: device("transparency count", COUNT_BYTES)?,
             heads: device("transparency heads", pixels * size_of::<u32>() as u64)?,
             entries,
-            readback: gpu.buffer("transparency count", COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?,
+            readback: gpu.buffer(
+                "transparency count",
+                COUNT_BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                Memory::Readback,
+            )?,
+            has_count: false,
         })
     }
 
@@ -72,28 +80,34 @@ impl Lists {
         self.size == size
     }
 
-    /// Fragments of the last frame that was waited for, and entries that there are.
+    /// A frame with them has been recorded: its count will be there when it has been drawn.
+    pub fn keep_count(&mut self) {
+        self.has_count = true;
+    }
+
+    /// Fragments of the last frame, and entries that there are.
     ///
     /// # Errors
     /// Those of reading memory.
-    pub fn use_of_entries(&self) -> Result<ListUse, GpuError> {
-        let fragments = self.readback.read::<u32>()?.first().copied().unwrap_or_default();
-        Ok(ListUse { fragments, entries: self.capacity })
+    pub fn in_use(&self) -> Result<ListUse, GpuError> {
+        let counted = if self.has_count { self.readback.read::<u32>()? } else { Vec::new() };
+        Ok(ListUse { fragments: counted.first().copied().unwrap_or_default(), entries: self.capacity })
     }
 
-    /// Entries for that many fragments, if there can be more than there are.
-    pub fn larger_capacity(&self, gpu: &Gpu, fragments: u32) -> Option<u32> {
+    /// Entries for the fragments of the last frame, where there can be more than there are.
+    ///
+    /// # Errors
+    /// Those of reading memory.
+    pub fn larger_capacity(&self, gpu: &Gpu) -> Result<Option<u32>, GpuError> {
+        let ListUse { fragments, entries } = self.in_use()?;
         // An eighth more, so that a moving camera does not make every frame a longer one.
         let wanted = fragments.saturating_add(fragments / 8);
         let capacity = wanted.min(most_entries(self.size, gpu.info().max_storage_bytes));
-        (fragments > self.capacity && capacity > self.capacity).then_some(capacity)
+        Ok((fragments > entries && capacity > entries).then_some(capacity))
     }
 
     /// The lists as [`LIST_SET`] of a pipeline that appends or composes.
-    ///
-    /// # Errors
-    /// When the device is out of memory.
-    pub fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> Result<BindGroup, GpuError> {
+    fn group(&self, gpu: &Gpu, pipeline: &Pipeline) -> Result<BindGroup, GpuError> {
         let offered = [
             ("TransparencyCount", Resource::Buffer(&self.count)),
             ("TransparencyHeads", Resource::Buffer(&self.heads)),
@@ -101,6 +115,80 @@ impl Lists {
         ];
         gpu.bind_group(pipeline, LIST_SET, "transparency lists", &offered)
     }
+}
+
+/// What one frame composes, and by which pipeline.
+pub struct Composition<'a> {
+    lists: &'a Lists,
+    pipeline: &'a Pipeline,
+    /// For those that append.
+    appending: BindGroup,
+    composing: BindGroup,
+    pictures: BindGroup,
+}
+
+impl<'a> Composition<'a> {
+    /// Binds the lists and what lies behind them; `None` where the plan lists nothing.
+    ///
+    /// # Errors
+    /// When the device is out of memory.
+    pub fn new(
+        gpu: &Gpu,
+        resources: &'a Resources,
+        plan: &Plan,
+        targets: &Targets,
+        lists: Option<&'a Lists>,
+    ) -> Result<Option<Self>, GpuError> {
+        let appends = plan.pipelines.iter().find(|spec| spec.lists());
+        let (Some(spec), Some(appends), Some(lists)) = (&plan.composition, appends, lists) else { return Ok(None) };
+        let pipeline = resources.pipeline(spec);
+        let offered =
+            [("opaque", Resource::Texture(&targets.color)), ("opaque_depth", Resource::Texture(&targets.depth))];
+        Ok(Some(Self {
+            lists,
+            pipeline,
+            appending: lists.group(gpu, resources.pipeline(appends))?,
+            composing: lists.group(gpu, pipeline)?,
+            pictures: gpu.bind_group(pipeline, 0, "transparency", &offered)?,
+        }))
+    }
+
+    /// [`LIST_SET`] of the pipelines that append.
+    pub fn appending(&self) -> &BindGroup {
+        &self.appending
+    }
+}
+
+/// Empties the lists.
+pub fn clear(encoder: &mut Encoder, composition: &Composition) {
+    let Lists { count, heads, .. } = composition.lists;
+    encoder.clear_buffers("clear transparency", &[count, heads]);
+}
+
+/// Records the pass.
+pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, composition: &Composition) {
+    let Some(resolved) = &targets.resolved else { return };
+    let has_samples = targets.color.samples() > 1;
+    let color = [ColorTarget {
+        image: resolved,
+        // What blends nowhere has been resolved already.
+        load: if has_samples { Load::Keep } else { Load::Discard },
+        store: true,
+        resolve: None,
+    }];
+    let sampled = [&targets.color, &targets.depth];
+    let sampled = if has_samples { &sampled[..] } else { &sampled[..1] };
+    let name = Pass::Transparency.name();
+    encoder.render_pass(
+        &RenderPassDesc { name, size: frame.options.size, color: &color, depth: None, sampled },
+        |pass| {
+            pass.pipeline(composition.pipeline);
+            pass.bind(0, &composition.pictures);
+            pass.bind(LIST_SET, &composition.composing);
+            pass.draw(3, 1);
+        },
+    );
+    encoder.copy_buffer(&composition.lists.count, &composition.lists.readback);
 }
 
 /// How many entries a frame asked for, and how many there were. Beyond them, order is that of objects.

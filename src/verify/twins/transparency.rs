@@ -2,7 +2,9 @@
 
 use super::super::domain::{Domain, UNIT};
 use super::super::twin::{Limit, Rule, Twin};
-use crate::material::reference::transparency::{TRANSMITTANCE_STEPS, attenuation, half_bits, half_value, packed, weight};
+use crate::material::reference::transparency::{
+    TRANSMITTANCE_STEPS, attenuation, half_bits, half_value, packed, weight,
+};
 
 /// What halves hold: subnormal ones, and the largest that is kept.
 const RADIANCE: Domain = Domain::Log(1e-9, 64512.0, &[0.0, 1e-40, 6.1e-5, 1.0, 1.00048828125, 2048.0, 64512.0]);
@@ -13,9 +15,12 @@ const COLOR: Domain = Domain::Uniform(0.0, 1.0, &[0.0, 1e-8, 0.5, 1.0]);
 const WAY: Domain = Domain::Log(1e-6, 1e3, &[0.0, 1e-40, 1.0, 1e3]);
 
 pub(super) const TWINS: &[Twin] = &[
-    Twin { limit: Limit::EXACT, ..Twin::new("transparency_half", &[RADIANCE], |given| vec![f64::from(half_bits(given.number()))]) }
-        // Where two halves are equally near.
-        .rule(Rule::Stepped(1)),
+    Twin {
+        limit: Limit::EXACT,
+        ..Twin::new("transparency_half", &[RADIANCE], |given| vec![f64::from(half_bits(given.number()))])
+    }
+    // Where two halves are equally near.
+    .rule(Rule::Stepped(1)),
     Twin {
         limit: Limit::EXACT,
         ..Twin::new("transparency_packed", &[RADIANCE, UNIT, REST], |given| {
