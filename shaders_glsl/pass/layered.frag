@@ -274,9 +274,9 @@ void main() {
         through *= left;
     }
 
-    vec3 sum = frame.ambient_radiance * f.occlusion * ambient;
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * ambient;
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * world_from_base;
         vec3 seen = layered_base_times_cosine(base, eye, l, base_terms(l, f.roughness, m.widths));
 #ifdef SHEEN

@@ -6,8 +6,9 @@ use super::question::Method;
 use super::{Effort, Progress, ReportError};
 use crate::gpu::Gpu;
 use crate::oracle::{self, OracleOptions};
-use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shells, Shot};
-use glam::DVec3;
+use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shells, Shot, Transparency};
+use crate::scene::Surroundings;
+use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -41,6 +42,10 @@ impl Recipe {
             layers: Some(self.layers),
             shells: self.shells,
             msaa: self.msaa,
+            // Shells that blend are drawn in their order: lists would measure something else.
+            transparency: Transparency::Sorted,
+            // What the oracle knows.
+            surroundings: Surroundings::constant(Vec3::splat(0.05)),
             ..Default::default()
         };
         let cameras = cases.cameras(self.view, size[1]);
@@ -61,13 +66,20 @@ pub struct FrameMs {
 
 impl FrameMs {
     fn new(report: &FrameReport) -> Self {
-        let sum = |wanted: &[Pass]| {
-            let passes = report.passes.iter().filter(|pass| wanted.iter().any(|wanted| wanted.name() == pass.name));
-            passes.map(|pass| pass.gpu_ms).sum::<Option<f64>>()
-        };
         let coat = [Pass::Fur, Pass::Transparent];
-        Self { passes: sum(&[Pass::Opaque, coat[0], coat[1]]), coat: sum(&coat), wall: report.frame_ms }
+        Self { coat: sum(report, &coat), ..Self::of(report, &[Pass::Opaque, coat[0], coat[1]]) }
     }
+
+    /// With these passes, and no coat.
+    pub fn of(report: &FrameReport, passes: &[Pass]) -> Self {
+        Self { passes: sum(report, passes), coat: None, wall: report.frame_ms }
+    }
+}
+
+/// Milliseconds of passes by the device's timestamps.
+fn sum(report: &FrameReport, wanted: &[Pass]) -> Option<f64> {
+    let passes = report.passes.iter().filter(|pass| wanted.iter().any(|wanted| wanted.name() == pass.name));
+    passes.map(|pass| pass.gpu_ms).sum()
 }
 
 /// What was measured of a recipe.
@@ -177,7 +189,7 @@ fn references(
             let scene_index = scene.asset().default_scene;
             let picture =
                 oracle::render(scene, scene_index, &shot.pose, &shot.camera, &shot.lighting, None, &oracle_options)?;
-            background = shot.lighting.ambient_radiance.as_dvec3();
+            background = shot.lighting.surroundings.constant_radiance().unwrap_or_default().as_dvec3();
             let frame = Radiance { size, pixels: picture.radiance };
             // The noise of a difference is that of both.
             noise += metric::noise(&frame, &picture.variance);
