@@ -9,6 +9,7 @@
 #include "direction.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
+#include "fibre.glsl"
 #include "lock.glsl"
 #include "coverage.glsl"
 #ifdef COUNT
@@ -254,13 +255,16 @@ void main() {
     color *= mix(fur.root_color, fur.tip_color, height);
     color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
 
-    float variance = strand_variance(fur.roughness);
-    vec3 sum = frame.ambient_radiance * color * mix(1.0 - fur.occlusion, 1.0, height);
+    // Optical depth along the light, and on average over all directions. What hides the strand from the eye are the shells
+    // above, so that the view counts once.
+    Fibre fibre = fibre_to_eye(normal, strand, to_eye, fur.specular, fur.transmission, fibre_variance(fur.roughness));
+    float depth_all_over = -log(max(1.0 - fur.occlusion * (1.0 - height), 1e-3));
+    vec3 sum = fibre_surroundings(fibre, color, frame.ambient_radiance, frame.ambient_radiance, frame.ambient_radiance,
+                                  depth_all_over);
     for (uint index = 0u; index < frame.light_count; ++index) {
         LightSample light = light_sample(lights[index], position_in_world);
-        float through = strand_light_through_coat(height, fur.occlusion, dot(normal, light.direction_in_world));
-        vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
-        sum += light.irradiance * through * scattered;
+        float depth = strand_optical_depth(height, fur.occlusion, dot(normal, light.direction_in_world));
+        sum += light.irradiance * fibre_scattering(fibre, color, light.direction_in_world, depth);
     }
     sum = min(sum, vec3(RADIANCE_LIMIT));
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);

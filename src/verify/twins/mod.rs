@@ -6,6 +6,7 @@ mod color;
 mod cotton;
 mod coverage;
 mod direction;
+mod fibre;
 mod film;
 mod fuzz;
 mod gauze;
@@ -36,6 +37,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    fibre::TWINS,
     film::TWINS,
     fuzz::TWINS,
     gauze::TWINS,
