@@ -28,8 +28,7 @@ layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity 
 layout(constant_id = 14) const uint SAMPLING = 0;            // 0 slab, 1 point
 layout(constant_id = 15) const uint ALPHA = 0;               // 0 correlated between shells, 1 each shell alone, 2 step
 
-layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
-layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
+#include "fur_light.glsl"
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
 #ifdef MAPS
 layout(set = 1, binding = 3) uniform texture2D distribution_map;
@@ -255,14 +254,13 @@ void main() {
     color *= mix(fur.root_color, fur.tip_color, height);
     color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
 
-    // Optical depth along the light, and on average over all directions. What hides the strand from the eye are the shells
-    // above, so that the view counts once.
+    // Optical depths on average over all directions and along each light. What hides the strand from the eye are the
+    // shells above, so that the view counts once.
     Fibre fibre = fibre_to_eye(normal, strand, to_eye, fur.specular, fur.transmission, fibre_variance(fur.roughness));
     float depth_all_over = -log(max(1.0 - fur.occlusion * (1.0 - height), 1e-3));
-    vec3 sum = fibre_surroundings(fibre, color, frame.ambient_radiance, frame.ambient_radiance, frame.ambient_radiance,
-                                  depth_all_over);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = screen_occlusion() * fur_surroundings(fibre, color, to_eye, depth_all_over);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         float depth = strand_optical_depth(height, fur.occlusion, dot(normal, light.direction_in_world));
         sum += light.irradiance * fibre_scattering(fibre, color, light.direction_in_world, depth);
     }

@@ -10,7 +10,7 @@ use crate::material::reference::albedo::Fit;
 use crate::material::reference::standard::Surface;
 use crate::material::reference::{direction, fibre, light, strand, uv};
 use crate::material::{AlphaMode, Fur, Standard};
-use crate::scene::{Light, LightKind, Lighting, Size};
+use crate::scene::{Light, LightKind, Size};
 use glam::{DVec2, DVec3, DVec4};
 
 /// A surface's material.
@@ -124,8 +124,10 @@ fn mixed_uv([a, b, c]: [DVec2; 3], barycentric: DVec3) -> DVec2 {
 
 /// What shades all places of a picture.
 pub struct Shading<'a> {
-    /// Lights and surroundings.
-    pub lighting: &'a Lighting,
+    /// Lights.
+    pub lights: &'a [Light],
+    /// Radiance of the surroundings, the same from everywhere.
+    pub ambient_radiance: DVec3,
     /// Whose eye.
     pub eye: Eye,
     /// Directional albedo of surfaces.
@@ -161,8 +163,8 @@ impl Shading<'_> {
             metallic: standard.metallic.into(),
             roughness: standard.roughness.into(),
         };
-        let ambient = self.lighting.ambient_radiance.as_dvec3() * surface.ambient(&self.fit, to_eye.z);
-        let lit = self.lighting.lights.iter().map(|light| {
+        let ambient = self.ambient_radiance * surface.ambient(&self.fit, to_eye.z);
+        let lit = self.lights.iter().map(|light| {
             let (to_light, irradiance) = incident(light, place);
             irradiance * surface.brdf_times_cosine(&self.fit, to_eye, in_tangent(to_light))
         });
@@ -183,9 +185,8 @@ impl Shading<'_> {
         let (specular, transmission) = (fur.specular.into(), fur.transmission.into());
         let fibre = fibre::Fibre::new(normal, tangent, to_eye, specular, transmission, dress.variance);
         let depth = -(1.0 - occlusion * (1.0 - height)).max(1e-3).ln();
-        let radiance = self.lighting.ambient_radiance.as_dvec3();
-        let ambient = radiance * color.map(|color| fibre.surroundings(color, 1.0, 1.0, 1.0, depth));
-        let lit = self.lighting.lights.iter().map(|light| {
+        let ambient = self.ambient_radiance * color.map(|color| fibre.surroundings(color, 1.0, 1.0, 1.0, depth));
+        let lit = self.lights.iter().map(|light| {
             let (to_light, irradiance) = incident(light, place);
             let depth = strand::optical_depth(height, occlusion, normal.dot(to_light));
             irradiance * color.map(|color| fibre.scattering(color, to_light, depth))

@@ -22,9 +22,11 @@ fn albedo(fibre: &Fibre, to_eye: DVec3, scattering: impl Fn(&Fibre, DVec3) -> f6
 
 /// Everything that is promised of fur.
 pub fn claims() -> Vec<Claim> {
+    // Lobes add up: what holds with and without them holds between.
+    let strength = |name| Input { corners: vec![0.0, 1.0], ..Input::of::<Fur>(name) };
     let inputs = vec![
-        Input::of::<Fur>("specular"),
-        Input::of::<Fur>("transmission"),
+        strength("specular"),
+        strength("transmission"),
         Input::of::<Fur>("roughness"),
         Input::between("strand_to_normal_deg", (0.0, 90.0)),
         Input::signed_cosine("cosine_to_eye"),
