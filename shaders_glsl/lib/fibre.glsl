@@ -94,10 +94,15 @@ float fibre_horizon(float cosine_to_light) {
 // Mean of fibre_horizon over the lobes, from mean and variance of the cosine that they see: within 0.075 of it. `facing` is
 // the cosine between normal and tangent, `aside` that between normal and the eye across the tangent.
 vec3 fibre_seen(vec3 sine, vec3 variance, float facing, float aside) {
-    // First and second moment along the axis of a von Mises-Fisher lobe.
+    // First and second moment along the axis of a von Mises-Fisher lobe; of wide ones by their series, as they would cancel.
     vec3 tail = exp(-2.0 / variance);
     vec3 first = (1.0 + tail) / (1.0 - tail) - variance;
     vec3 second = 1.0 - 3.0 * variance * first;
+    vec3 k = 1.0 / variance;
+    vec3 k2 = k * k;
+    bvec3 is_wide = lessThan(k, vec3(0.5));
+    first = mix(first, k * (1.0 / 3.0 - k2 * (1.0 / 45.0 - k2 * (2.0 / 945.0))), is_wide);
+    second = mix(second, k2 * (1.0 / 15.0 - k2 * (2.0 / 315.0 - k2 / 1575.0)), is_wide);
     vec3 sine_mean = first * sine;
     vec3 sine_squared = clamp((1.0 - second) / 3.0 + second * sine * sine, 0.0, 1.0);
     vec3 around = sqrt(1.0 - sine_squared) * FIBRE_AROUND * aside;
