@@ -29,4 +29,5 @@ pub mod standard;
 pub mod strand;
 pub mod sway;
 pub mod tonemap;
+pub mod transparency;
 pub mod uv;

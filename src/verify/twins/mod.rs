@@ -25,6 +25,7 @@ mod standard;
 mod strand;
 mod sway;
 mod tonemap;
+mod transparency;
 mod uv;
 mod velvet;
 
@@ -57,6 +58,7 @@ const FILES: &[&[Twin]] = &[
     strand::TWINS,
     sway::TWINS,
     tonemap::TWINS,
+    transparency::TWINS,
     uv::TWINS,
     velvet::TWINS,
 ];
