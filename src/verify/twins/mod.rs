@@ -7,6 +7,7 @@ mod cotton;
 mod coverage;
 mod direction;
 mod environment;
+mod fibre;
 mod film;
 mod fuzz;
 mod gauze;
@@ -38,6 +39,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    fibre::TWINS,
     environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
