@@ -5,6 +5,7 @@
 
 mod cloth;
 mod count;
+mod environment;
 mod file;
 mod frame;
 mod frame_data;
@@ -28,6 +29,7 @@ mod targets;
 mod texture;
 
 pub use count::PassFragments;
+pub use environment::{EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes};
 pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
