@@ -124,7 +124,7 @@ fn tiling_sets_density() {
         for corner in [[0, 0], [half, 0], [0, half], [half, half]] {
             let rows = (0..half).flat_map(|y| (0..half).map(move |x| (corner[0] + x, corner[1] + y)));
             let radiance = rows.map(|(x, y)| picture.radiance(x, y)).collect();
-            let quarter = Picture { size: [half; 2], rgba: Vec::new(), radiance, background: None };
+            let quarter = Picture { size: [half; 2], rgba: Vec::new(), radiance, behind: None };
             all_hold([stands_as_mapped(&quarter, &fur, fur.layers)]);
         }
     });
