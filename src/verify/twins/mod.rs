@@ -6,6 +6,7 @@ mod color;
 mod cotton;
 mod coverage;
 mod direction;
+mod environment_lobe;
 mod film;
 mod fuzz;
 mod gauze;
@@ -17,6 +18,7 @@ mod laser;
 mod layered;
 mod light;
 mod lock;
+mod occlusion;
 mod satin;
 mod sheen;
 mod standard;
@@ -36,6 +38,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    environment_lobe::TWINS,
     film::TWINS,
     fuzz::TWINS,
     gauze::TWINS,
@@ -47,6 +50,7 @@ const FILES: &[&[Twin]] = &[
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
+    occlusion::TWINS,
     satin::TWINS,
     sheen::TWINS,
     standard::TWINS,
