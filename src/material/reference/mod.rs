@@ -11,6 +11,7 @@ pub mod color;
 pub mod coverage;
 pub mod direction;
 pub mod environment_lobe;
+pub mod environment;
 pub mod film;
 pub mod fuzz;
 pub mod gauze;

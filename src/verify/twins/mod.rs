@@ -7,6 +7,7 @@ mod cotton;
 mod coverage;
 mod direction;
 mod environment_lobe;
+mod environment;
 mod film;
 mod fuzz;
 mod gauze;
@@ -39,6 +40,7 @@ const FILES: &[&[Twin]] = &[
     coverage::TWINS,
     direction::TWINS,
     environment_lobe::TWINS,
+    environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
     gauze::TWINS,
