@@ -30,6 +30,7 @@ mod targets;
 mod texture;
 
 pub use count::PassFragments;
+pub use environment::{EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes};
 pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
