@@ -48,6 +48,7 @@ void main() {
     vec4 color = surface_color();
     int mask = surface_mask(color.a);
     SurfaceFragment f = surface_fragment(color);
+    own_environment_turn = cotton.environment_turn;
     vec3 sheen_color = cotton.sheen_color;
     float sheen_roughness = cotton.sheen_roughness;
 #ifdef MAPS

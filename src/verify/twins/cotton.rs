@@ -1,6 +1,6 @@
 //! Judges `cotton.glsl`: the classic form.
 
-use super::super::domain::{COSINE, Domain, RADIANCE, ROUGHNESS, UNIT};
+use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::Twin;
 use super::sheen::{Lobe, around_two_lobes};
 use crate::material::Sheen;
@@ -34,7 +34,7 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("cotton_classic_occlusion", &[COSINE, ROUGHNESS, UNIT], |given| {
         vec![cotton::occlusion_of_lobe(given.number(), given.number(), given.number())]
     }),
-    Twin::new("cotton_classic_lobe_ambient", &[UNIT, UNIT, COSINE, ROUGHNESS, UNIT, RADIANCE], |given| {
+    Twin::new("cotton_classic_lobe_ambient", &[UNIT, UNIT, COSINE, ROUGHNESS, UNIT, UNIT], |given| {
         let (color, albedo) = (given.vec3(), given.number());
         let seen = cotton::occlusion_of_lobe(given.number(), given.number(), given.number());
         let light = given.vec3();

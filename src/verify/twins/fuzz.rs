@@ -1,6 +1,6 @@
 //! Judges `fuzz.glsl`.
 
-use super::super::domain::{Domain, RADIANCE, UNIT};
+use super::super::domain::{Domain, UNIT};
 use super::super::twin::{Given, Twin};
 use super::sheen::{Lobe, MODEL, around_two_lobes};
 use glam::DVec3;
@@ -65,7 +65,7 @@ pub(super) const TWINS: &[Twin] = &[
             (lobes + surface.coupled_diffuse * left * l.z).to_array().to_vec()
         },
     ),
-    Twin::new("fuzz_ambient", around_two_lobes!([UNIT, UNIT, UNIT, UNIT], [RADIANCE, RADIANCE, RADIANCE]), |given| {
+    Twin::new("fuzz_ambient", around_two_lobes!([UNIT, UNIT, UNIT, UNIT], [UNIT, UNIT, UNIT]), |given| {
         let surface = Surface::new(given);
         let (pile_light, fibre_light, base_light) = (given.vec3(), given.vec3(), given.vec3());
         let pile = surface.pile_color * surface.pile.albedo;
