@@ -58,7 +58,10 @@ void main() {
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint i = 0u; i < draw.samples; ++i) {
-        vec3 facet = environment_visible_facet(environment_hammersley(i, draw.samples), vec3(0.0, 0.0, 1.0), alpha);
+        // In pairs from opposite sides, so that the mean of their directions is the axis.
+        vec2 u = environment_hammersley(i >> 1u, (draw.samples + 1u) >> 1u);
+        u.x = fract(u.x + 0.5 * float(i & 1u));
+        vec3 facet = environment_visible_facet(u, vec3(0.0, 0.0, 1.0), alpha);
         vec3 l = vec3(2.0 * facet.z * facet.xy, 2.0 * facet.z * facet.z - 1.0);
         if (l.z <= 0.0) { continue; }
         // The density of l is a quarter of the facet's.

@@ -248,6 +248,9 @@ pub fn sheen_entry(lobe: &Lobe, mu: f64) -> LobeEntry {
         weights += density.powf(1.5);
         albedo += density;
     }
+    if weights == 0.0 {
+        return LobeEntry { mirror: 0.0, roughness: 1.0, albedo: 0.0, fresnel: 0.0 };
+    }
     LobeEntry {
         mirror: -sum.x / (sum.length() * v.x),
         roughness: roughness_of_spread(1.0 - sum.length() / weights),

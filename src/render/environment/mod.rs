@@ -1,11 +1,15 @@
 //! What an environment is on the device: a cube of prefiltered radiance, spherical harmonics, and the table that says how
 //! lobes look into the cube.
 
+mod backdrop;
 mod cache;
+mod maps;
 mod prepare;
 mod prepared;
 mod quality;
 
+pub use backdrop::{Backdrop, BackdropImage, Behind, backdrop_bytes};
+pub use maps::{EnvironmentMaps, LobeTable, environment_bytes};
 pub use prepared::{HARMONICS, PreparedEnvironment};
 pub use quality::EnvironmentQuality;
 
@@ -35,7 +39,7 @@ pub fn prepare_environment(
 pub fn prepare_lobes(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Vec<u8>, GpuError> {
     // What makes the table depends on its size alone.
     let own = EnvironmentQuality { table_px: quality.table_px, ..EnvironmentQuality::default() };
-    let bytes = (own.table_px * own.table_px * prepare::LOBE_SHEETS * 8) as usize;
+    let bytes = own.table_size().iter().product::<u32>() as usize * 8;
     let decode = |file: &[u8]| (file.len() == bytes).then(|| file.to_vec());
     cache::cached(gpu, "lobes", 0, &own, decode, Vec::clone, || prepare::lobes(gpu, &own))
 }

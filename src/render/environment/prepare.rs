@@ -32,12 +32,10 @@ const ROWS_GROUP: u32 = 64;
 const HARMONICS_FACE_PX: u32 = 128;
 /// Directions of GGX that an entry of the table adds up.
 const LOBE_SAMPLES: u32 = 2048;
-/// Sheets of the table: GGX and three models of sheen.
-pub(super) const LOBE_SHEETS: u32 = 4;
 /// Software devices take seconds.
 const TIMEOUT_MS: u64 = 600_000;
 /// What the largest radiance becomes: far from the end of half floats, and the smallest ones keep their digits.
-const LARGEST_TEXEL: f32 = 32_768.0;
+pub(super) const LARGEST_TEXEL: f32 = 32_768.0;
 
 /// Computes cube and harmonics.
 ///
@@ -48,8 +46,7 @@ pub(super) fn environment(
     environment: &Environment,
     quality: &EnvironmentQuality,
 ) -> Result<PreparedEnvironment, GpuError> {
-    let face_px = quality.face_of(environment);
-    let last_level = EnvironmentQuality::last_level(face_px, environment.constant_radiance().is_some());
+    let (face_px, last_level) = quality.cube_of(environment);
     let texels_of = |levels: u32| (0..levels).map(|level| 6 * u64::from(face_px >> level).pow(2)).sum::<u64>();
     let all_levels = face_px.ilog2() + 1;
     let storage = |name, bytes| gpu.buffer(name, bytes, vk::BufferUsageFlags::STORAGE_BUFFER, Memory::Device);
@@ -73,12 +70,12 @@ pub(super) fn environment(
     to_cube.record(
         &mut encoder,
         groups(0),
-        // Twice as fine as the picture.
+        // At least twice as fine as the picture.
         &EnvironmentCubeDraw {
             columns,
             rows: picture_rows,
             face_px,
-            directions_a_side: 2 * columns.div_ceil(4 * face_px),
+            directions_a_side: 2 * columns.div_ceil(2 * face_px),
         },
     );
     let halve = Step::new(gpu, &table::ENVIRONMENT_HALVE_COMP, &[], &[("CubeTexels", &cube)])?;
@@ -111,7 +108,7 @@ pub(super) fn lobes(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Vec<u8>, 
     let storage = |name, bytes| gpu.buffer(name, bytes, vk::BufferUsageFlags::STORAGE_BUFFER, Memory::Device);
     let sheen: Vec<[f32; 4]> = SheenTable::shipped().texels().collect();
     let nodes_of_sheen = storage("sheen nodes", size_of_val(&sheen[..]) as u64)?;
-    let entries = storage("lobe entries", u64::from(nodes * nodes * LOBE_SHEETS) * 16)?;
+    let entries = storage("lobe entries", u64::from(nodes * nodes * EnvironmentQuality::TABLE_SHEETS) * 16)?;
     let mut upload = gpu.upload();
     upload.buffer(&nodes_of_sheen, 0, bytemuck::cast_slice(&sheen));
     upload.finish()?;
@@ -119,7 +116,11 @@ pub(super) fn lobes(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Vec<u8>, 
     let buffers = [("SheenNodes", &nodes_of_sheen), ("LobeEntries", &entries)];
     let step = Step::new(gpu, &table::ENVIRONMENT_LOBES_COMP, &[], &buffers)?;
     let groups = nodes.div_ceil(GROUP);
-    step.record(&mut encoder, [groups, groups, LOBE_SHEETS], &EnvironmentLobesDraw { nodes, samples: LOBE_SAMPLES });
+    step.record(
+        &mut encoder,
+        [groups, groups, EnvironmentQuality::TABLE_SHEETS],
+        &EnvironmentLobesDraw { nodes, samples: LOBE_SAMPLES },
+    );
     let [entries] = read_back(gpu, encoder, [&entries])?;
     Ok(entries.iter().flat_map(|entry| halves(*entry)).collect())
 }
@@ -187,7 +188,7 @@ fn pack(face_px: u32, last_level: u32, texels: &[Vec4], harmonics: &[Vec4]) -> P
 }
 
 /// Little-endian half floats.
-fn halves(texel: Vec4) -> [u8; 8] {
+pub(super) fn halves(texel: Vec4) -> [u8; 8] {
     let mut bytes = [0; 8];
     for (bytes, value) in bytes.chunks_exact_mut(2).zip(texel.to_array()) {
         bytes.copy_from_slice(&f16::from_f32(value).to_le_bytes());

@@ -43,19 +43,23 @@ impl EnvironmentQuality {
         (!(8..=64).contains(&table_px)).then(|| format!("a table of {table_px} nodes; choose 8 to 64"))
     }
 
-    /// Side of the faces of that environment's cube.
-    pub(super) fn face_of(&self, environment: &Environment) -> u32 {
+    /// Sheets of the table of lobes: GGX and three models of sheen.
+    pub(super) const TABLE_SHEETS: u32 = 4;
+
+    /// Columns and rows of the table of lobes.
+    pub(super) fn table_size(&self) -> [u32; 2] {
+        [self.table_px, self.table_px * Self::TABLE_SHEETS]
+    }
+
+    /// Side of the faces of that environment's cube, and the number of its last level.
+    pub(super) fn cube_of(&self, environment: &Environment) -> (u32, u32) {
         if environment.constant_radiance().is_some() {
-            return CONSTANT_FACE_PX.min(self.face_px);
+            return (CONSTANT_FACE_PX, 0);
         }
         // A face spans a quarter of the turn.
         let resolved = environment.size[0].max(2 * environment.size[1]).div_ceil(4).next_power_of_two();
-        self.face_px.min(resolved.max(LEAST_FACE_PX))
-    }
-
-    /// Number of the last level of a cube with such faces.
-    pub(super) fn last_level(face_px: u32, is_constant: bool) -> u32 {
-        if is_constant { 0 } else { (face_px / LAST_FACE_PX).max(1).ilog2() }
+        let face_px = self.face_px.min(resolved.max(LEAST_FACE_PX));
+        (face_px, (face_px / LAST_FACE_PX).ilog2())
     }
 
     /// Directions that a texel of a level looks into.
