@@ -8,6 +8,7 @@ mod coverage;
 mod direction;
 mod environment_lobe;
 mod environment;
+mod fibre;
 mod film;
 mod fuzz;
 mod gauze;
@@ -26,6 +27,7 @@ mod standard;
 mod strand;
 mod sway;
 mod tonemap;
+mod transparency;
 mod uv;
 mod velvet;
 
@@ -40,6 +42,7 @@ const FILES: &[&[Twin]] = &[
     coverage::TWINS,
     direction::TWINS,
     environment_lobe::TWINS,
+    fibre::TWINS,
     environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
@@ -59,6 +62,7 @@ const FILES: &[&[Twin]] = &[
     strand::TWINS,
     sway::TWINS,
     tonemap::TWINS,
+    transparency::TWINS,
     uv::TWINS,
     velvet::TWINS,
 ];
