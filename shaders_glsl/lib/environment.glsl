@@ -106,9 +106,9 @@ float environment_cosine_band(uint band) {
 
 // Point of `count` evenly spread ones in the open unit square (Hammersley, with the radical inverse of base 2).
 vec2 environment_hammersley(uint index, uint count) {
-    // The top 24 bits: the sum is then exact and below 1.
-    float inverse = float(bitfieldReverse(index) >> 8u) * 5.96046448e-8 + 2.98023224e-8;
-    return vec2((float(index) + 0.5) / float(count), min(inverse, 0.99999994));
+    // The top 24 bits, which a float holds; half a step further both are the middles of as many strips.
+    float inverse = float(bitfieldReverse(index) >> 8u) * 5.96046448e-8;
+    return vec2((float(index) + 0.5) / float(count), min(inverse + 0.5 / float(count), 0.99999994));
 }
 
 // The facet that v sees, by the square's point u; its density is D(h) max(v.h, 0) G1(v) / v.z. v.z >= 0.

@@ -17,7 +17,8 @@ layout(push_constant) uniform EnvironmentLobesBlock { EnvironmentLobesDraw draw;
 layout(set = 0, binding = 0, std430) readonly buffer SheenNodes { vec4 sheen_nodes[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer LobeEntries { vec4 lobe_entries[]; };
 
-const uint SIDE = 48u; // rings and directions around, half a turn, of a lobe of sheen
+const uint RINGS = 72u;  // of a lobe of sheen
+const uint AROUND = 48u; // directions of a ring, in half a turn
 
 // What a lobe's samples add up to.
 struct Moments {
@@ -92,14 +93,13 @@ vec4 sheen_node(uint sheet, float mu, float roughness) {
                mix(sheen_nodes[start + 32u], sheen_nodes[start + 33u], part.x), part.y);
 }
 
-// Directions l = reflections of v at facets: those cluster at the horizon, about as wide as alpha. The transformed cosine
-// of the volume by directions of the cosine that it transforms.
+// Directions l = reflections of v at facets, which cluster at the horizon where the lobe is narrow; of the volume, the
+// transforms of directions of the cosine.
 Moments sheen_moments(uint sheet, vec3 v, float roughness) {
     Moments moments = Moments(vec3(0.0), 0.0, 0.0, 0.0);
     SheenLobe lobe = sheen_lobe(sheet, roughness, v, sheen_node(sheet, v.z, roughness));
-    float reach = sheet == SHEEN_VOLUME ? 1.0 : log(1.0 / lobe.alpha + sqrt(1.0 / (lobe.alpha * lobe.alpha) + 1.0));
-    for (uint i = 0u; i < SIDE * SIDE; ++i) {
-        vec2 u = (vec2(i % SIDE, i / SIDE) + 0.5) / float(SIDE);
+    for (uint i = 0u; i < RINGS * AROUND; ++i) {
+        vec2 u = (vec2(i % RINGS, i / RINGS) + 0.5) / vec2(RINGS, AROUND);
         float around = 3.14159265 * u.y;
         vec2 azimuth = vec2(cos(around), sin(around));
         vec3 l;
@@ -110,11 +110,10 @@ Moments sheen_moments(uint sheet, vec3 v, float roughness) {
             l = normalize(vec3((w.x - lobe.ltc.y * w.z) / lobe.ltc.x, w.y / lobe.ltc.x, w.z));
             albedo = lobe.albedo;
         } else {
-            // The cosine of the facet is alpha sinh(reach u).
-            float grown = exp(reach * u.x);
-            float z = 0.5 * lobe.alpha * (grown - 1.0 / grown);
-            float step = 0.5 * lobe.alpha * (grown + 1.0 / grown) * reach;
-            vec3 h = vec3(sqrt(max(1.0 - z * z, 0.0)) * azimuth, min(z, 1.0));
+            // The cosine of the facet grows with u and its square: rings are narrow where facets lie on the horizon.
+            float z = u.x * mix(u.x, 1.0, lobe.alpha);
+            float step = mix(2.0 * u.x, 1.0, lobe.alpha);
+            vec3 h = vec3(sqrt(1.0 - z * z) * azimuth, z);
             float cosine = dot(v, h);
             l = 2.0 * cosine * h - v;
             if (cosine <= 0.0 || l.z <= 0.0) { continue; }
@@ -127,7 +126,7 @@ Moments sheen_moments(uint sheet, vec3 v, float roughness) {
         moments.weight += weight;
         moments.albedo += albedo;
     }
-    moments.albedo /= float(SIDE * SIDE);
+    moments.albedo /= float(RINGS * AROUND);
     return moments;
 }
 
@@ -144,7 +143,7 @@ void main() {
     float size = length(moments.direction);
     vec4 entry = vec4(0.0, 1.0, moments.albedo, moments.fresnel);
     if (size > 0.0) {
-        entry.x = clamp(-moments.direction.x / (size * v.x), -1.0, 1.0);
+        entry.x = -moments.direction.x / (size * v.x);
         entry.y = roughness_of_spread(1.0 - size / moments.weight);
     }
     // A mirror stays one.

@@ -61,14 +61,16 @@ void main() {
         // In pairs from opposite sides, so that the mean of their directions is the axis.
         vec2 u = environment_hammersley(i >> 1u, (draw.samples + 1u) >> 1u);
         u.x = fract(u.x + 0.5 * float(i & 1u));
+        // Denser in the long tail of the lobe, whose shares would be large and blur each other.
+        float thinned = 2.0 * (1.0 - u.y);
+        u.y = 1.0 - (1.0 - u.y) * (1.0 - u.y);
         vec3 facet = environment_visible_facet(u, vec3(0.0, 0.0, 1.0), alpha);
         vec3 l = vec3(2.0 * facet.z * facet.xy, 2.0 * facet.z * facet.z - 1.0);
         if (l.z <= 0.0) { continue; }
         // The density of l is a quarter of the facet's.
-        float solid_angle = 4.0 / (float(draw.samples) * ggx_ndf(facet, alpha, alpha));
-        // Half a level more, so that neighbouring shares overlap.
-        uint level = uint(clamp(0.5 * log2(solid_angle / texel_solid_angle) + 1.0, 0.0, smallest));
-        float weight = environment_masking(l.z, alpha);
+        float solid_angle = 4.0 * thinned / (float(draw.samples) * ggx_ndf(facet, alpha, alpha));
+        uint level = uint(clamp(0.5 * log2(solid_angle / texel_solid_angle) + 0.5, 0.0, smallest));
+        float weight = thinned * environment_masking(l.z, alpha);
         sum += weight * cube_radiance(frame * l, cube_level_start(draw.face_px, level), draw.face_px >> level);
         weights += weight;
     }

@@ -31,7 +31,8 @@ mod texture;
 
 pub use count::PassFragments;
 pub use environment::{
-    Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes,
+    Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, make_environment, make_lobes,
+    prepare_environment, prepare_lobes,
 };
 pub use file::write_file;
 pub use left_out::LeftOut;

@@ -6,6 +6,7 @@
 mod case;
 mod curve;
 mod dynamics;
+mod environment;
 mod feature;
 mod folder;
 mod headline;
@@ -152,6 +153,7 @@ pub fn measure(
     let sweep = sweep::sweep(gpu, &cases, &recipes, effort, progress)?;
     progress("furnace", 0, 1);
     let mut report = Report::new(gpu.info(), questions, &cases, &sweep, effort);
+    report.features.push(environment::feature(gpu, effort, progress)?);
     report.features.push(transparency::feature(gpu, effort, report.clock, progress)?);
     Ok(report)
 }

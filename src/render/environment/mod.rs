@@ -25,10 +25,30 @@ pub fn prepare_environment(
     environment: &Environment,
     quality: &EnvironmentQuality,
 ) -> Result<PreparedEnvironment, GpuError> {
-    let make = || prepare::environment(gpu, environment, quality);
+    let make = || make_environment(gpu, environment, quality);
     let content = environment.content_hash();
     let (decode, encode) = (PreparedEnvironment::from_bytes, PreparedEnvironment::to_bytes);
     cache::cached(gpu, "environment", content, quality, decode, encode, make)
+}
+
+/// [`prepare_environment`] without the cache: computed.
+///
+/// # Errors
+/// When the device is out of memory or lost.
+pub fn make_environment(
+    gpu: &Gpu,
+    environment: &Environment,
+    quality: &EnvironmentQuality,
+) -> Result<PreparedEnvironment, GpuError> {
+    prepare::environment(gpu, environment, quality)
+}
+
+/// [`prepare_lobes`] without the cache: computed.
+///
+/// # Errors
+/// When the device is out of memory or lost.
+pub fn make_lobes(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Vec<u8>, GpuError> {
+    prepare::lobes(gpu, quality)
 }
 
 /// Texels of the table of lobes, from the device's cache folder or computed: `table_px` columns of cosines, four sheets
@@ -41,5 +61,5 @@ pub fn prepare_lobes(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Vec<u8>,
     let own = EnvironmentQuality { table_px: quality.table_px, ..EnvironmentQuality::default() };
     let bytes = own.table_size().iter().product::<u32>() as usize * 8;
     let decode = |file: &[u8]| (file.len() == bytes).then(|| file.to_vec());
-    cache::cached(gpu, "lobes", 0, &own, decode, Vec::clone, || prepare::lobes(gpu, &own))
+    cache::cached(gpu, "lobes", 0, &own, decode, Vec::clone, || make_lobes(gpu, &own))
 }

@@ -9,7 +9,7 @@ const LAST_FACE_PX: u32 = 4;
 /// A small environment's cube has at least this side: its levels are also the steps of roughness.
 const LEAST_FACE_PX: u32 = 64;
 /// No direction differs: every texel of the one level is the same.
-const CONSTANT_FACE_PX: u32 = 16;
+const CONSTANT_FACE_PX: u32 = 32;
 
 /// How finely environments are prepared. `vair report` (feature `environment`) shows error against time for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -18,7 +18,7 @@ pub struct EnvironmentQuality {
     /// fewer texels have smaller ones. Six faces with all levels take 64 bytes times its square.
     pub face_px: u32,
     /// Directions that a texel of the first blurred level looks into, in [1, 1024]; twice as many a level further, where
-    /// a quarter of the texels is left; default 32. Time grows with it.
+    /// a quarter of the texels is left; default 64. Time grows with it.
     pub samples: u32,
     /// Nodes of the table of lobes along the cosine and along the roughness, in [8, 64]; default 32.
     pub table_px: u32,
@@ -26,7 +26,7 @@ pub struct EnvironmentQuality {
 
 impl Default for EnvironmentQuality {
     fn default() -> Self {
-        Self { face_px: 256, samples: 32, table_px: 32 }
+        Self { face_px: 256, samples: 64, table_px: 32 }
     }
 }
 

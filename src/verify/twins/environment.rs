@@ -55,8 +55,8 @@ pub(super) const TWINS: &[Twin] = &[
         &[Domain::Choice(&[0, 1, 2, 3, 5, 17, 62, 63]), Domain::Choice(&[64, 100, 1024])],
         |given| {
             let (index, count) = (given.uint(), given.uint());
-            let middle = 0.5f64.powi(25);
-            vec![(f64::from(index) + 0.5) / f64::from(count), environment::radical_inverse(index) + middle]
+            let half = 0.5 / f64::from(count);
+            vec![(f64::from(index) + 0.5) / f64::from(count), environment::radical_inverse(index) + half]
         },
     ),
     Twin::new("environment_visible_facet", &[INSIDE, Domain::Hemisphere, ALPHA], |given| {
