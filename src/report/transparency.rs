@@ -79,7 +79,8 @@ pub fn feature(gpu: &Gpu, effort: &Effort, clock: Clock, progress: &mut Progress
         reference_noise: 0.0,
         points,
         notes: vec![
-            "weights are applied to the lists of the sorted way: what they save of its time is the sorting alone".to_owned(),
+            "weights are applied to the lists of the sorted way: what they save of its time is the sorting alone"
+                .to_owned(),
         ],
     })
 }
@@ -94,7 +95,8 @@ fn scene(bodies: &[Body]) -> Result<Scene, ReportError> {
     let mut asset = Asset::default();
     for (index, Body { primitive, color }) in bodies.iter().enumerate() {
         let alpha_mode = if color.w < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
-        let material = Material { base_color: *color, unlit: true, double_sided: true, alpha_mode, ..Material::default() };
+        let material =
+            Material { base_color: *color, unlit: true, double_sided: true, alpha_mode, ..Material::default() };
         asset.materials.push(material);
         let primitives = vec![Primitive { material: index, ..primitive.clone() }];
         asset.meshes.push(Mesh { name: None, primitives, weights: Vec::new() });
