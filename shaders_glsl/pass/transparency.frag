@@ -21,10 +21,14 @@ layout(location = 0) out vec4 radiance;
 // Entries that are sorted at a time: longer lists are gone through once more for every so many.
 const uint BATCH = 8u;
 
+// In the place of a sample: the middle of the pixel, for what is alike at all samples.
+const uint MIDDLE = 4u;
+
 // Reversed depth of an entry at a sample.
 float depth_at(uint entry, uint index) {
     float depth = entries[entry - 1u].depth;
 #ifdef MULTISAMPLE
+    if (index == MIDDLE) { return depth; }
     vec2 slope = unpackHalf2x16(entries[entry - 1u].slope);
     return max(depth + depth * dot(slope, SAMPLE_PLACES[index]), 0.0);
 #else
@@ -35,6 +39,7 @@ float depth_at(uint entry, uint index) {
 // Whether an entry has that sample, and nothing opaque lies before it there.
 bool is_seen(uint entry, float depth, uint index, float opaque_at) {
 #ifdef MULTISAMPLE
+    if (index == MIDDLE) { return true; }
     if ((entries[entry - 1u].red >> index & 1u) == 0u) { return false; }
     // The depth test found at least one sample to be seen, but not which. Half floats keep a slope within 2^-10 (some
     // devices cut), and of a single plane the differences that it was made of are within a few units of depth.
@@ -79,7 +84,17 @@ vec4 through(vec4 behind, vec3 transmittance) {
     return vec4(behind.rgb * transmittance, 1.0 - (1.0 - behind.a) * mean);
 }
 
-vec4 sorted(uint head, uint index, vec4 behind, float opaque_at) {
+// How far an entry's depth goes within its pixel: samples lie up to 3/8 from the middle.
+vec2 depth_range(uint entry, float depth) {
+    vec2 slope = abs(unpackHalf2x16(entries[entry - 1u].slope));
+    float spread = depth * (0.376 * (slope.x + slope.y) + 4.8e-7);
+    return vec2(depth - spread, depth + spread);
+}
+
+// `is_same` becomes false where samples may see layers that others do not, or in another order.
+vec4 sorted(uint head, uint index, vec4 behind, float opaque_at, out bool is_same) {
+    is_same = true;
+    float nearest = opaque_at;
     vec4 seen = behind;
     uint last = 0u;
     float last_depth = 0.0;
@@ -110,6 +125,11 @@ vec4 sorted(uint head, uint index, vec4 behind, float opaque_at) {
         for (uint place = 0u; place < count; ++place) {
             last = batch[place];
             last_depth = depths[place];
+            if (index == MIDDLE) {
+                vec2 range = depth_range(last, last_depth);
+                is_same = is_same && range.x >= nearest && (entries[last - 1u].red & 15u) == 15u;
+                nearest = range.y;
+            }
             seen = through(seen, transmittance_of(last)) + vec4(radiance_of(last), 0.0);
         }
     }
@@ -142,16 +162,31 @@ void main() {
     // What blends nowhere is resolved already.
     if (head == 0u) { discard; }
 #endif
+    bool is_same;
+#ifdef MULTISAMPLE
+    vec4 behind[SAMPLES];
+    float opaque_at[SAMPLES];
+    vec4 mean = vec4(0.0);
+    float nearest = 0.0;
+    for (uint index = 0u; index < SAMPLES; ++index) {
+        behind[index] = texelFetch(opaque, place, int(index));
+        opaque_at[index] = texelFetch(opaque_depth, place, int(index)).r;
+        mean += behind[index] / float(SAMPLES);
+        nearest = max(nearest, opaque_at[index]);
+    }
+    if (!WEIGHTED) {
+        // Layers are linear in what lies behind: where all samples see the same ones, once does for all.
+        radiance = sorted(head, MIDDLE, mean, nearest, is_same);
+        if (is_same) { return; }
+    }
     vec4 sum = vec4(0.0);
     for (uint index = 0u; index < SAMPLES; ++index) {
-#ifdef MULTISAMPLE
-        vec4 behind = texelFetch(opaque, place, int(index));
-        float opaque_at = texelFetch(opaque_depth, place, int(index)).r;
-#else
-        vec4 behind = texelFetch(opaque, place, 0);
-        float opaque_at = 0.0;
-#endif
-        sum += WEIGHTED ? weighted(head, index, behind, opaque_at) : sorted(head, index, behind, opaque_at);
+        sum += WEIGHTED ? weighted(head, index, behind[index], opaque_at[index])
+                        : sorted(head, index, behind[index], opaque_at[index], is_same);
     }
     radiance = sum / float(SAMPLES);
+#else
+    vec4 behind = texelFetch(opaque, place, 0);
+    radiance = WEIGHTED ? weighted(head, 0u, behind, 0.0) : sorted(head, 0u, behind, 0.0, is_same);
+#endif
 }

@@ -113,6 +113,13 @@ impl Renderer {
         }
         self.keep(scene, options);
         let pixels = options.size.iter().map(|side| u64::from(*side)).product();
+        if shot.plan.composition.is_some() {
+            // One fragment a pixel, too; with several samples it is dropped where nothing blends.
+            let blended = fragments.iter().find(|counted| counted.pass == Pass::Transparent);
+            let covered_pixels = blended.filter(|_| options.msaa > 1).map_or(pixels, |counted| counted.covered_pixels);
+            let pass = Pass::Transparency;
+            fragments.push(PassFragments { pass, rasterized: pixels, shaded: pixels, covered_pixels });
+        }
         fragments.push(PassFragments {
             pass: Pass::Tonemap,
             rasterized: pixels,

@@ -2,6 +2,7 @@
 
 use super::environment::{backdrop_bytes, environment_bytes};
 use super::options::FrameOptions;
+use super::pass::transparency::Lists;
 use super::plan::{Plan, TextureUse};
 use super::stream::{ABSENT, Stream};
 use crate::asset::Asset;
@@ -66,6 +67,11 @@ impl Plan {
         }
         for attachment in &self.attachments {
             add(attachment.name.to_owned(), attachment.bytes(options.size));
+        }
+        if self.composition.is_some() {
+            for (name, bytes) in Lists::first_bytes(options.size) {
+                add(name.to_owned(), bytes);
+            }
         }
         let environment = &options.surroundings.environment;
         if self.is_lit() {

@@ -279,8 +279,8 @@ fn gauze_over_fur_and_fur_over_gauze_are_what_sorting_objects_gives_where_that_i
         for msaa in [1, 4] {
             for depth_m in [1.5, -1.5] {
                 let found = difference(device, &coat_and_gauze(depth_m), msaa, [PerPixel, Sorted]);
-                // Sorting blends ten layers in half floats; lists keep radiance in halves and transmittance in 1/4095.
-                assert!(found < 10.0 / 1024.0, "{found} at {depth_m} m, {msaa} samples");
+                // Sorting blends a sheet and eight shells of two sides in half floats, which some devices cut.
+                assert!(found < 17.0 / 1024.0, "{found} at {depth_m} m, {msaa} samples");
             }
             let within = difference(device, &coat_and_gauze(0.45), msaa, [PerPixel, Sorted]);
             assert!(within > 0.05, "a sheet within the coat looks sorted: {within}");

@@ -45,6 +45,12 @@ impl Lists {
         size[0].saturating_mul(size[1]).saturating_mul(Self::FIRST_PER_PIXEL)
     }
 
+    /// Names on the device and bytes, before they grow.
+    pub fn first_bytes(size: [u32; 2]) -> [(&'static str, u64); 3] {
+        let heads = u64::from(size[0]) * u64::from(size[1]) * size_of::<u32>() as u64;
+        [(COUNT_NAME, COUNT_BYTES), (HEADS_NAME, heads), (ENTRIES_NAME, entry_bytes(Self::first_capacity(size).into()))]
+    }
+
     /// Makes them, with at most as many entries as one buffer of the device holds.
     ///
     /// # Errors
@@ -52,9 +58,9 @@ impl Lists {
     pub fn new(gpu: &Gpu, size: [u32; 2], capacity: u32) -> Result<Self, GpuError> {
         let capacity = capacity.min(most_entries(size, gpu.info().max_storage_bytes));
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let [_, (_, head_bytes), _] = Self::first_bytes(size);
         let device = |name, bytes| gpu.buffer(name, bytes, usage, Memory::Device);
-        let entries = device("transparency entries", entry_bytes(capacity.into()))?;
+        let entries = device(ENTRIES_NAME, entry_bytes(capacity.into()))?;
         let header = TransparencyEntries { width: size[0], capacity };
         let mut upload = gpu.upload();
         upload.buffer(&entries, 0, bytemuck::bytes_of(&header));
@@ -62,15 +68,10 @@ impl Lists {
         Ok(Self {
             size,
             capacity,
-            count: device("transparency count", COUNT_BYTES)?,
-            heads: device("transparency heads", pixels * size_of::<u32>() as u64)?,
+            count: device(COUNT_NAME, COUNT_BYTES)?,
+            heads: device(HEADS_NAME, head_bytes)?,
             entries,
-            readback: gpu.buffer(
-                "transparency count",
-                COUNT_BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                Memory::Readback,
-            )?,
+            readback: gpu.buffer(COUNT_NAME, COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?,
             has_count: false,
         })
     }
@@ -200,10 +201,13 @@ pub struct ListUse {
     pub entries: u32,
 }
 
+const COUNT_NAME: &str = "transparency count";
+const HEADS_NAME: &str = "transparency heads";
+const ENTRIES_NAME: &str = "transparency entries";
 const COUNT_BYTES: u64 = size_of::<u32>() as u64;
 
 /// Bytes of that many entries and what stands before them.
-pub fn entry_bytes(entries: u64) -> u64 {
+fn entry_bytes(entries: u64) -> u64 {
     size_of::<TransparencyEntries>() as u64 + entries * size_of::<TransparencyEntry>() as u64
 }
 
