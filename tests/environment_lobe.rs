@@ -59,7 +59,8 @@ fn error(lobe: &[(DVec3, f64)], look_ups: &[LookUp]) -> f64 {
     let (mut off, mut all) = (0.0, 0.0);
     for to_lamp in lamps() {
         let truth = lobe.iter().map(|(l, weight)| weight * lamp(l.dot(to_lamp))).sum::<f64>() / whole;
-        let found: f64 = look_ups.iter().map(|(axis, rough, weight)| weight * prefiltered(*rough, axis.dot(to_lamp))).sum();
+        let found: f64 =
+            look_ups.iter().map(|(axis, rough, weight)| weight * prefiltered(*rough, axis.dot(to_lamp))).sum();
         off += (found - truth).powi(2);
         all += truth * truth;
     }
@@ -111,9 +112,11 @@ const ROUGHNESS: [f64; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0];
 
 #[test]
 fn round_lobes() {
-    let views = || ROUGHNESS.into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 0.8, 1.0].map(|mu| (rough, direction(mu, 0.0))));
+    let views =
+        || ROUGHNESS.into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 0.8, 1.0].map(|mu| (rough, direction(mu, 0.0))));
     let lobe = |roughness, v| ggx_lobe(v, (ggx::alpha_of_roughness(roughness), ggx::alpha_of_roughness(roughness)));
-    let ours = summary(views().map(|(rough, v)| error(&lobe(rough, v), &by_entry(v, environment::ggx_entry(v.z, rough)))));
+    let ours =
+        summary(views().map(|(rough, v)| error(&lobe(rough, v), &by_entry(v, environment::ggx_entry(v.z, rough)))));
     let mirror = DVec3::new(-1.0, -1.0, 1.0);
     let plain = summary(views().map(|(rough, v)| error(&lobe(rough, v), &[(mirror * v, rough, 1.0)])));
     println!("round: ours {ours:.3?}, mirror direction and own roughness {plain:.3?}");
@@ -127,7 +130,8 @@ fn anisotropic_lobes() {
     let views = || {
         let both = widths.into_iter().flat_map(|(ax, ay)| [(ax, ay), (ay, ax)]);
         let views = |alpha| [0.15, 0.4, 0.7, 0.98].map(|mu| (alpha, mu));
-        both.flat_map(views).flat_map(|(alpha, mu)| [0.0f64, 30.0, 60.0, 90.0].map(|turn| (alpha, direction(mu, turn.to_radians()))))
+        both.flat_map(views)
+            .flat_map(|(alpha, mu)| [0.0f64, 30.0, 60.0, 90.0].map(|turn| (alpha, direction(mu, turn.to_radians()))))
     };
     let ours = |count: u32| {
         let taps = |v: DVec3, alpha| {
@@ -142,23 +146,28 @@ fn anisotropic_lobes() {
     let plain = summary(
         views().map(|(alpha, v)| error(&ggx_lobe(v, alpha), &[(DVec3::new(-v.x, -v.y, v.z), mean_width(alpha), 1.0)])),
     );
-    let [one, five, seven, nine] = [1, 5, 7, 9].map(ours);
-    println!("anisotropic: one look-up of the mean width {plain:.3?}, taps 1 {one:.3?} 5 {five:.3?} 7 {seven:.3?} 9 {nine:.3?}");
-    assert!(seven.0 <= 0.17 && seven.1 <= 0.45, "{seven:?}");
-    assert!(nine.0 < seven.0 && seven.0 < five.0 && five.0 < one.0 && 3.0 * seven.0 < plain.0);
+    let [one, five, nine, thirteen] = [1, 5, 9, 13].map(ours);
+    println!(
+        "anisotropic: one look-up of the mean width {plain:.3?}, taps 1 {one:.3?} 5 {five:.3?} 9 {nine:.3?} 13 {thirteen:.3?}"
+    );
+    assert!(nine.0 <= 0.18 && nine.1 <= 0.45, "{nine:?}");
+    assert!(thirteen.0 < nine.0 && nine.0 < five.0 && five.0 < one.0 && 3.0 * nine.0 < plain.0);
 }
 
 #[test]
 fn fuzz() {
     let table = SheenTable::shipped();
     for sheet in [Sheen::Volume, Sheen::Charlie, Sheen::Inverted] {
-        let views = || [0.3, 0.6, 1.0].into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 1.0].map(|mu| (rough, direction(mu, 0.0))));
+        let views =
+            || [0.3, 0.6, 1.0].into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 1.0].map(|mu| (rough, direction(mu, 0.0))));
         let lobe = |roughness| Lobe { table: &table, sheet, roughness };
         let of = |(rough, v): (f64, DVec3)| {
             error(&fuzz_lobe(&lobe(rough), v), &by_entry(v, environment::sheen_entry(&lobe(rough), v.z)))
         };
         let ours = summary(views().map(of));
-        let plain = summary(views().map(|(rough, v)| error(&fuzz_lobe(&lobe(rough), v), &[(DVec3::new(-v.x, -v.y, v.z), rough, 1.0)])));
+        let plain = summary(
+            views().map(|(rough, v)| error(&fuzz_lobe(&lobe(rough), v), &[(DVec3::new(-v.x, -v.y, v.z), rough, 1.0)])),
+        );
         println!("{sheet:?}: ours {ours:.3?}, mirror direction and own roughness {plain:.3?}");
         assert!(ours.0 <= 0.5 && ours.0 < plain.0, "{ours:?} {plain:?}");
     }

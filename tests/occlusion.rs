@@ -43,9 +43,7 @@ fn errors(form: impl Fn(f64, f64, f64) -> f64) -> (f64, f64) {
         .into_iter()
         .flat_map(|roughness| [0.05, 0.1, 0.3, 0.6, 0.8, 0.95, 1.0].map(|mu| (roughness, mu)))
         .map(|(roughness, mu)| {
-            let off = |(step, share): (usize, f64)| {
-                form(mu, roughness, (step + 1) as f64 / STEPS as f64) - share
-            };
+            let off = |(step, share): (usize, f64)| form(mu, roughness, (step + 1) as f64 / STEPS as f64) - share;
             let squared: f64 = truth(mu, roughness).into_iter().enumerate().map(|at| off(at).powi(2)).sum();
             (squared / (STEPS - 1) as f64).sqrt()
         })

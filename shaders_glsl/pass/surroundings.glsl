@@ -7,7 +7,7 @@
 #include "occlusion.glsl"
 #include "sheen.glsl"
 
-layout(constant_id = 92) const uint ANISOTROPIC_TAPS = 7;
+layout(constant_id = 92) const uint ANISOTROPIC_TAPS = 9;
 
 // A direction that a bent normal sends into the surface goes along it: hidden, it would meet the surface itself.
 vec3 above_horizon(SurfaceFragment f, vec3 direction_in_world) {

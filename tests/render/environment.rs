@@ -116,16 +116,21 @@ fn turning_the_environment_is_turning_everything_else() {
         let mut checks = Vec::new();
         for roughness in [0.1, 0.5, 1.0] {
             // Right-handed about +Y: what stood at +Z stands at +X.
-            let turned = device.picture(&seen_from(Vec3::X, roughness), &in_surroundings(lamp.surroundings(90.0), [32, 32]));
-            let still = device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(0.0), [32, 32]));
-            let wrong_way = device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(180.0), [32, 32]));
+            let turned =
+                device.picture(&seen_from(Vec3::X, roughness), &in_surroundings(lamp.surroundings(90.0), [32, 32]));
+            let still =
+                device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(0.0), [32, 32]));
+            let wrong_way =
+                device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(180.0), [32, 32]));
             let off = |one: &vair::render::Picture, other: &vair::render::Picture| {
                 let pixels = (8..24).flat_map(|y| (8..24).map(move |x| (x, y)));
                 pixels.map(|(x, y)| (one.radiance(x, y) - other.radiance(x, y)).abs().max_element()).fold(0.0, f32::max)
             };
             // The halves of a half float, and 1/256 of a texel.
             let (same, other) = (off(&turned, &still), off(&turned, &wrong_way));
-            checks.push((same <= 0.01 && other > 0.1).then_some(()).ok_or_else(|| format!("{roughness}: {same} {other}")));
+            checks.push(
+                (same <= 0.01 && other > 0.1).then_some(()).ok_or_else(|| format!("{roughness}: {same} {other}")),
+            );
         }
         all_hold(checks);
     });
@@ -192,7 +197,8 @@ fn a_streak_bends_with_the_tangent_and_is_as_bright_as_its_lobe() {
                 }
                 if tilt_deg == 0.0 {
                     // A streak along the tangent reaches the lamp, one across it does not.
-                    checks.push((both[0] > 2.0 * both[1]).then_some(()).ok_or_else(|| format!("{roughness}: {both:?}")));
+                    checks
+                        .push((both[0] > 2.0 * both[1]).then_some(()).ok_or_else(|| format!("{roughness}: {both:?}")));
                 }
             }
         }

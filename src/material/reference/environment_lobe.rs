@@ -23,7 +23,7 @@ pub fn spread((ax, ay): (f64, f64)) -> f64 {
 
 /// Perceptual roughness of the taps' lobes.
 pub fn roughness(alpha: (f64, f64), taps: u32) -> f64 {
-    (alpha.0.min(alpha.1) + 0.2 * spread(alpha) / f64::from(taps.max(1))).min(1.0).sqrt()
+    (alpha.0.min(alpha.1) + 0.4 * spread(alpha) / f64::from(taps.max(1))).min(1.0).sqrt()
 }
 
 /// Normal of the tap at a share, in (0, 1), of the normals that `v` sees, in the order of their lean.
@@ -49,11 +49,8 @@ pub fn taps(v: DVec3, alpha: (f64, f64), count: u32, mirror: f64) -> Vec<Tap> {
     let tap = |index| {
         let h = normal(v, alpha, (f64::from(index) + 0.5) / f64::from(count));
         let mirrored = 2.0 * v.dot(h) * h - v;
-        let weight = if mirrored.z > 0.0 {
-            ggx::masking_shadowing_times_cosine(v, mirrored, alpha.0, alpha.1)
-        } else {
-            0.0
-        };
+        let weight =
+            if mirrored.z > 0.0 { ggx::masking_shadowing_times_cosine(v, mirrored, alpha.0, alpha.1) } else { 0.0 };
         Tap { direction: axis(v, h, mirror), weight }
     };
     let taps: Vec<Tap> = (0..count).map(tap).collect();
