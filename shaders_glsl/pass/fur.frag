@@ -15,6 +15,11 @@
 #ifdef COUNT
 #include "count.glsl"
 #endif
+#ifdef LIST
+#include "object.glsl"
+#include "transparency_append.glsl"
+layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+#endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
@@ -230,6 +235,9 @@ void main() {
     radiance = vec4(1.0);
     if (mask == 0) { discard; }
 #else
+#ifdef LIST
+    vec2 depth_slope = list_slope();
+#endif
     if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
 
@@ -265,6 +273,10 @@ void main() {
         sum += light.irradiance * fibre_scattering(fibre, color, light.direction_in_world, depth);
     }
     sum = min(sum, vec3(RADIANCE_LIMIT));
+#ifdef LIST
+    radiance = list_append(sum * opacity, vec3(1.0 - opacity), depth_slope, uint(gl_SampleMaskIn[0]), draw.rank);
+#else
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+#endif
 #endif
 }

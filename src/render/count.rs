@@ -4,7 +4,7 @@
 //! of the frame is drawn by its counting pipeline ([`PipelineSpec::counting`]), which keeps what decides coverage and
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
-use super::frame_data::FrameData;
+use super::frame_data::{EnvironmentLight, FrameData};
 use super::pass::{Frame, draws};
 use super::plan::Pass;
 use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
@@ -73,8 +73,9 @@ impl Renderer {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, None, scene, &shot)?;
-        let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data };
+        let data = FrameData::new(&self.gpu, &self.resources, EnvironmentLight::default(), scene, &shot)?;
+        let resources = &self.resources;
+        let frame = Frame { scene, shot: &shot, options, resources, motion: &motion, data: &data, composition: None };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
         let target = self.gpu.image(&ImageDesc {
@@ -112,6 +113,13 @@ impl Renderer {
         }
         self.keep(scene, options);
         let pixels = options.size.iter().map(|side| u64::from(*side)).product();
+        if shot.plan.composition.is_some() {
+            // One fragment a pixel, too; with several samples it is dropped where nothing blends.
+            let blended = fragments.iter().find(|counted| counted.pass == Pass::Transparent);
+            let covered_pixels = blended.filter(|_| options.msaa > 1).map_or(pixels, |counted| counted.covered_pixels);
+            let pass = Pass::Transparency;
+            fragments.push(PassFragments { pass, rasterized: pixels, shaded: pixels, covered_pixels });
+        }
         fragments.push(PassFragments {
             pass: Pass::Tonemap,
             rasterized: pixels,

@@ -1,6 +1,8 @@
 //! What a plan takes on the device, known before the device is asked.
 
+use super::environment::{backdrop_bytes, environment_bytes};
 use super::options::FrameOptions;
+use super::pass::transparency::Lists;
 use super::plan::{Plan, TextureUse};
 use super::stream::{ABSENT, Stream};
 use crate::asset::Asset;
@@ -65,6 +67,20 @@ impl Plan {
         }
         for attachment in &self.attachments {
             add(attachment.name.to_owned(), attachment.bytes(options.size));
+        }
+        if self.composition.is_some() {
+            for (name, bytes) in Lists::first_bytes(options.size) {
+                add(name.to_owned(), bytes);
+            }
+        }
+        let environment = &options.surroundings.environment;
+        if self.is_lit() {
+            let maps = environment_bytes(environment, &options.environment_quality, self.binds_lobes());
+            maps.for_each(|(name, bytes)| add(name.to_owned(), bytes));
+        }
+        if options.shows_environment() {
+            let (name, bytes) = backdrop_bytes(environment);
+            add(name.to_owned(), bytes);
         }
         add(PICTURE_NAME.to_owned(), format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0));
         owners

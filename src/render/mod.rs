@@ -30,14 +30,18 @@ mod targets;
 mod texture;
 
 pub use count::PassFragments;
+pub use environment::{
+    Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes,
+};
 pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
-    Tonemap,
+    Tonemap, Transparency,
 };
+pub use pass::transparency::ListUse;
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
@@ -46,20 +50,20 @@ pub use stream::Stream;
 pub use table::Table;
 pub use targets::Attachment;
 
-use crate::asset::Environment;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
-use environment::EnvironmentMaps;
-use frame_data::FrameData;
+use environment::{BackdropImage, EnvironmentMaps, LobeTable};
+use frame_data::{EnvironmentLight, FrameData};
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
 use pass::tonemap::Display;
+use pass::transparency::{Composition, Lists};
 use pass::{Frame, Moving};
 use resources::Resources;
+use std::borrow::Cow;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 use sway::SwayMemory;
 use targets::Targets;
@@ -153,6 +157,13 @@ impl Shot {
     }
 }
 
+impl Shot {
+    /// What the camera sees of the surroundings.
+    fn backdrop(&self, size: [u32; 2]) -> Backdrop {
+        Backdrop::new(&self.lighting.surroundings, &self.camera, size)
+    }
+}
+
 /// What one frame reads, made and not yet recorded.
 struct Prepared {
     motion: Motion,
@@ -170,8 +181,13 @@ pub struct Renderer {
     scene: Option<u64>,
     /// Light from all around, of the last frame.
     environment: Option<EnvironmentMaps>,
+    lobes: Option<LobeTable>,
+    /// What stands behind the scene.
+    backdrop: Option<BackdropImage>,
     /// Strands that lag behind.
     sway: SwayMemory,
+    /// What blends, where the last frame had any.
+    lists: Option<Lists>,
 }
 
 impl Renderer {
@@ -196,7 +212,10 @@ impl Renderer {
             picture: None,
             scene: None,
             environment: None,
+            lobes: None,
+            backdrop: None,
             sway: SwayMemory::default(),
+            lists: None,
         })
     }
 
@@ -232,18 +251,25 @@ impl Renderer {
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
         let (mut cpu, mut clock, before) = (CpuPhases::default(), Instant::now(), self.gpu.calls());
+        let options = &*self.options_here(options);
         let shot = Shot::new(scene, options)?;
         cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
-        let mut encoder = self.gpu.encoder("frame")?;
-        let prepared = self.prepare(scene, &shot, options, target.format())?;
-        cpu.prepare_ms = lap_ms(&mut clock);
-        self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
-        cpu.record_ms = lap_ms(&mut clock);
-        let submission = encoder.submit()?;
-        cpu.submit_ms = lap_ms(&mut clock);
-        let times = submission.wait(FRAME_TIMEOUT_MS)?;
-        cpu.wait_ms = lap_ms(&mut clock);
+        // Again where more blends than there was room for, which is known once it is drawn.
+        let times = loop {
+            let mut encoder = self.gpu.encoder("frame")?;
+            let prepared = self.prepare(scene, &shot, options, target.format())?;
+            cpu.prepare_ms += lap_ms(&mut clock);
+            self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
+            cpu.record_ms += lap_ms(&mut clock);
+            let submission = encoder.submit()?;
+            cpu.submit_ms += lap_ms(&mut clock);
+            let times = submission.wait(FRAME_TIMEOUT_MS)?;
+            cpu.wait_ms += lap_ms(&mut clock);
+            if self.larger_lists()?.is_none() {
+                break times;
+            }
+        };
         let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
@@ -254,14 +280,18 @@ impl Renderer {
             size: options.size,
             rgba: self.gpu.read_image(self.picture.insert(target))?,
             radiance,
-            background: match options.background {
-                Background::Environment => Some(shot.lighting.surroundings.constant_radiance().unwrap_or_default()),
-                Background::Color(color) => Some(color),
-                Background::Transparent => None,
+            behind: match options.background {
+                Background::Environment => match shot.lighting.surroundings.constant_radiance() {
+                    Some(radiance) => Behind::Color(radiance),
+                    None => Behind::Environment(shot.backdrop(options.size)),
+                },
+                Background::Color(color) => Behind::Color(color),
+                Background::Transparent => Behind::Transparent,
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
+        let mut report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
+        report.lists = self.lists.as_ref().map(Lists::in_use).transpose()?;
         Ok((picture, report))
     }
 
@@ -277,6 +307,7 @@ impl Renderer {
         options: &FrameOptions,
         target: &Image,
     ) -> Result<(), RenderError> {
+        let options = &*self.options_here(options);
         let shot = Shot::new(scene, options)?;
         let prepared = self.prepare(scene, &shot, options, target.format())?;
         self.record_prepared(encoder, scene, &shot, options, prepared, target)
@@ -317,29 +348,48 @@ impl Renderer {
         options: &FrameOptions,
         target_format: vk::Format,
     ) -> Result<Prepared, RenderError> {
-        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
-            // The old ones go first: two sets need not fit at once.
+        let lists = shot.plan.composition.is_some();
+        // The old ones go first: two sets need not fit at once.
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options, lists)) {
             self.targets = None;
+        }
+        let larger = self.larger_lists()?;
+        if larger.is_some() || !self.lists.as_ref().is_some_and(|kept| lists && kept.fit(options.size)) {
+            self.lists = None;
         }
         let motion = self.prepare_motion(scene, shot, options)?;
         if self.targets.is_none() {
-            self.targets = Some(Targets::new(&self.gpu, options)?);
+            self.targets = Some(Targets::new(&self.gpu, options, lists)?);
         }
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
-        self.resources.make_pipeline(&tonemap)?;
-        if shot.plan.is_lit() {
-            self.prepare_environment(&shot.lighting.surroundings.environment)?;
+        if lists && self.lists.is_none() {
+            let capacity = larger.unwrap_or(Lists::first_capacity(options.size));
+            self.lists = Some(Lists::new(&self.gpu, options.size, capacity)?);
         }
-        let data = FrameData::new(&self.gpu, &self.resources, self.environment.as_ref(), scene, shot)?;
+        let has_backdrop = options.shows_environment();
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format, has_backdrop);
+        for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
+            self.resources.make_pipeline(spec)?;
+        }
+        self.prepare_environment(&shot.plan, options)?;
+        let light = EnvironmentLight { maps: self.environment.as_ref(), lobes: self.lobes.as_ref() };
+        let data = FrameData::new(&self.gpu, &self.resources, light, scene, shot)?;
         Ok(Prepared { motion, data, tonemap })
     }
 
-    /// Makes what the environment is on the device, if the last frame had another one.
-    fn prepare_environment(&mut self, environment: &Arc<Environment>) -> Result<(), RenderError> {
-        if !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment)) {
-            // The old one goes first: two need not fit at once.
+    /// Makes what the environment is on the device, if the last frame had another one; the old one goes first, as two
+    /// need not fit at once.
+    fn prepare_environment(&mut self, plan: &Plan, options: &FrameOptions) -> Result<(), RenderError> {
+        let (gpu, environment, quality) = (&self.gpu, &options.surroundings.environment, options.environment_quality);
+        if plan.is_lit() && !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment, quality)) {
             self.environment = None;
-            self.environment = Some(EnvironmentMaps::new(&self.gpu, environment)?);
+            self.environment = Some(EnvironmentMaps::new(gpu, environment, quality)?);
+        }
+        if plan.binds_lobes() && !self.lobes.as_ref().is_some_and(|lobes| lobes.is_of(&quality)) {
+            self.lobes = Some(LobeTable::new(gpu, &quality)?);
+        }
+        if options.shows_environment() && !self.backdrop.as_ref().is_some_and(|image| image.is_of(environment)) {
+            self.backdrop = None;
+            self.backdrop = Some(BackdropImage::new(gpu, environment)?);
         }
         Ok(())
     }
@@ -370,11 +420,29 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
-        let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
-        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data };
+        let display =
+            Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), self.backdrop.as_ref(), target)?;
+        let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
+        let composition = composition.as_ref();
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, composition };
         frame::record(encoder, &frame, targets, &display);
+        self.lists.iter_mut().for_each(Lists::keep_count);
         self.keep(scene, options);
         Ok(())
+    }
+
+    /// The options as this device can meet them: lists need fragment shaders that write memory.
+    fn options_here<'a>(&self, options: &'a FrameOptions) -> Cow<'a, FrameOptions> {
+        match self.gpu.info().fragment_stores || options.transparency == Transparency::Sorted {
+            true => Cow::Borrowed(options),
+            false => Cow::Owned(FrameOptions { transparency: Transparency::Sorted, ..options.clone() }),
+        }
+    }
+
+    /// Entries that the last frame would have needed, where there can be more than there are. A frame of the host's tells
+    /// the next one, once it has been drawn.
+    fn larger_lists(&self) -> Result<Option<u32>, RenderError> {
+        Ok(self.lists.as_ref().map(|lists| lists.larger_capacity(&self.gpu)).transpose()?.flatten())
     }
 
     /// The picture's image; put it back into `self.picture` for the next frame.

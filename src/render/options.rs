@@ -1,6 +1,6 @@
 //! What one frame is asked to be.
 
-use super::RenderError;
+use super::{EnvironmentQuality, RenderError};
 use crate::asset::{Asset, Primitive, Topology};
 use crate::material::{Fur, Material};
 use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
@@ -33,6 +33,8 @@ pub struct FrameOptions {
     pub surroundings: Surroundings,
     /// Lights beside those of the file, in world space.
     pub lights: Vec<Light>,
+    /// How finely the surroundings are prepared.
+    pub environment_quality: EnvironmentQuality,
     /// What is shown where nothing was drawn.
     pub background: Background,
     /// Format of the linear colour target.
@@ -44,6 +46,8 @@ pub struct FrameOptions {
     pub layer_scale: f32,
     /// How shells are drawn.
     pub shells: Shells,
+    /// How what blends is laid over each other.
+    pub transparency: Transparency,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
     /// Draws the frame with everything that a plan can leave out: every pass, the largest permutations with texels that
@@ -64,11 +68,13 @@ impl Default for FrameOptions {
             exposure_ev: 0.0,
             surroundings: Surroundings::default(),
             lights: Vec::new(),
+            environment_quality: EnvironmentQuality::default(),
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
             layer_scale: 1.0,
             shells: Shells::default(),
+            transparency: Transparency::default(),
             msaa: 4,
             everything: false,
         }
@@ -79,6 +85,14 @@ impl FrameOptions {
     /// Shells of a coat whose material says `layers`.
     pub fn layers_of_coat(&self, layers: u32) -> u32 {
         self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
+    /// Whether the picture shows the environment where nothing was drawn. A constant one is just a colour, and a format
+    /// without alpha cannot tell where that is: there the environment's mean stands behind.
+    pub fn shows_environment(&self) -> bool {
+        self.background == Background::Environment
+            && self.hdr_format.has_alpha()
+            && self.surroundings.constant_radiance().is_none()
     }
 
     /// Whether strands of this coat lag behind: they have inertia, and something can move them.
@@ -108,6 +122,9 @@ impl FrameOptions {
         let Surroundings { strength, rotation_deg, .. } = self.surroundings;
         if !(strength >= 0.0 && strength.is_finite() && rotation_deg.is_finite()) {
             return wrong("surroundings", "strength and rotation must be finite, the strength not negative".to_owned());
+        }
+        if let Some(problem) = self.environment_quality.problem() {
+            return wrong("environment quality", problem);
         }
         if self.lights.iter().any(|light| !light.is_finite()) {
             return wrong("lights", "places, directions and intensities must be finite".to_owned());
@@ -159,6 +176,20 @@ impl FrameOptions {
         }
         Ok(())
     }
+}
+
+/// How layers that blend are laid over each other. The default is right wherever they cross and whatever the order of the
+/// file; the others are the ways of other renderers, there to be measured against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Transparency {
+    /// Sample by sample, sorted by depth, in colours. Falls back to [`Self::Sorted`] where fragment shaders cannot write
+    /// memory.
+    #[default]
+    PerPixel,
+    /// Sample by sample, unsorted: by weights that fall with the distance (McGuire & Bavoil 2013).
+    Weighted,
+    /// Object by object, each side of a surface by its mean depth; what passes is dimmed, not tinted.
+    Sorted,
 }
 
 /// How shells are made and drawn. The default is what vair is for; the others are the ways of other renderers, and ours

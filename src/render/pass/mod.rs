@@ -5,6 +5,7 @@ pub mod draws;
 pub mod order;
 pub mod sway;
 pub mod tonemap;
+pub mod transparency;
 
 use super::Shot;
 use super::frame_data::FrameData;
@@ -12,6 +13,7 @@ use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
 use crate::scene::Scene;
+use transparency::Composition;
 
 /// What the passes that move vertices share.
 pub struct Moving<'a> {
@@ -47,4 +49,6 @@ pub struct Frame<'a> {
     pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
+    /// Where what blends goes; `None` where nothing is listed, or fragments are only counted.
+    pub composition: Option<&'a Composition<'a>>,
 }

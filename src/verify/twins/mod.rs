@@ -6,6 +6,7 @@ mod color;
 mod cotton;
 mod coverage;
 mod direction;
+mod environment_lobe;
 mod environment;
 mod fibre;
 mod film;
@@ -19,12 +20,14 @@ mod laser;
 mod layered;
 mod light;
 mod lock;
+mod occlusion;
 mod satin;
 mod sheen;
 mod standard;
 mod strand;
 mod sway;
 mod tonemap;
+mod transparency;
 mod uv;
 mod velvet;
 
@@ -38,6 +41,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    environment_lobe::TWINS,
     fibre::TWINS,
     environment::TWINS,
     film::TWINS,
@@ -51,12 +55,14 @@ const FILES: &[&[Twin]] = &[
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
+    occlusion::TWINS,
     satin::TWINS,
     sheen::TWINS,
     standard::TWINS,
     strand::TWINS,
     sway::TWINS,
     tonemap::TWINS,
+    transparency::TWINS,
     uv::TWINS,
     velvet::TWINS,
 ];
