@@ -275,7 +275,8 @@ fn as_text(path: &Path, count: usize, report: &FrameReport, times: &FrameTimes) 
     }
     if let Some(lists) = report.lists.filter(|lists| lists.fragments > lists.entries) {
         let missed = lists.fragments - lists.entries;
-        text += &format!("{missed} of {} fragments that blend are sorted by objects: too many a pixel\n", lists.fragments);
+        text +=
+            &format!("{missed} of {} fragments that blend are sorted by objects: too many a pixel\n", lists.fragments);
     }
     text += &format!("device memory: {:.1} MiB\n", report.memory.device_bytes as f64 / f64::from(1 << 20));
     text

@@ -4,7 +4,7 @@
 //! of the frame is drawn by its counting pipeline ([`PipelineSpec::counting`]), which keeps what decides coverage and
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
-use super::frame_data::FrameData;
+use super::frame_data::{EnvironmentLight, FrameData};
 use super::pass::{Frame, draws};
 use super::plan::Pass;
 use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
@@ -73,7 +73,7 @@ impl Renderer {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, None, scene, &shot)?;
+        let data = FrameData::new(&self.gpu, &self.resources, EnvironmentLight::default(), scene, &shot)?;
         let resources = &self.resources;
         let frame = Frame { scene, shot: &shot, options, resources, motion: &motion, data: &data, composition: None };
         let lists = frame::draw_lists(&frame);

@@ -30,6 +30,9 @@ mod targets;
 mod texture;
 
 pub use count::PassFragments;
+pub use environment::{
+    Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes,
+};
 pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
@@ -47,12 +50,11 @@ pub use stream::Stream;
 pub use table::Table;
 pub use targets::Attachment;
 
-use crate::asset::Environment;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
-use environment::EnvironmentMaps;
-use frame_data::FrameData;
+use environment::{BackdropImage, EnvironmentMaps, LobeTable};
+use frame_data::{EnvironmentLight, FrameData};
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
@@ -62,7 +64,6 @@ use pass::{Frame, Moving};
 use resources::Resources;
 use std::borrow::Cow;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 use sway::SwayMemory;
 use targets::Targets;
@@ -156,6 +157,13 @@ impl Shot {
     }
 }
 
+impl Shot {
+    /// What the camera sees of the surroundings.
+    fn backdrop(&self, size: [u32; 2]) -> Backdrop {
+        Backdrop::new(&self.lighting.surroundings, &self.camera, size)
+    }
+}
+
 /// What one frame reads, made and not yet recorded.
 struct Prepared {
     motion: Motion,
@@ -173,6 +181,9 @@ pub struct Renderer {
     scene: Option<u64>,
     /// Light from all around, of the last frame.
     environment: Option<EnvironmentMaps>,
+    lobes: Option<LobeTable>,
+    /// What stands behind the scene.
+    backdrop: Option<BackdropImage>,
     /// Strands that lag behind.
     sway: SwayMemory,
     /// What blends, where the last frame had any.
@@ -201,6 +212,8 @@ impl Renderer {
             picture: None,
             scene: None,
             environment: None,
+            lobes: None,
+            backdrop: None,
             sway: SwayMemory::default(),
             lists: None,
         })
@@ -267,10 +280,13 @@ impl Renderer {
             size: options.size,
             rgba: self.gpu.read_image(self.picture.insert(target))?,
             radiance,
-            background: match options.background {
-                Background::Environment => Some(shot.lighting.surroundings.constant_radiance().unwrap_or_default()),
-                Background::Color(color) => Some(color),
-                Background::Transparent => None,
+            behind: match options.background {
+                Background::Environment => match shot.lighting.surroundings.constant_radiance() {
+                    Some(radiance) => Behind::Color(radiance),
+                    None => Behind::Environment(shot.backdrop(options.size)),
+                },
+                Background::Color(color) => Behind::Color(color),
+                Background::Transparent => Behind::Transparent,
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
@@ -349,23 +365,31 @@ impl Renderer {
             let capacity = larger.unwrap_or(Lists::first_capacity(options.size));
             self.lists = Some(Lists::new(&self.gpu, options.size, capacity)?);
         }
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
+        let has_backdrop = options.shows_environment();
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format, has_backdrop);
         for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
             self.resources.make_pipeline(spec)?;
         }
-        if shot.plan.is_lit() {
-            self.prepare_environment(&shot.lighting.surroundings.environment)?;
-        }
-        let data = FrameData::new(&self.gpu, &self.resources, self.environment.as_ref(), scene, shot)?;
+        self.prepare_environment(&shot.plan, options)?;
+        let light = EnvironmentLight { maps: self.environment.as_ref(), lobes: self.lobes.as_ref() };
+        let data = FrameData::new(&self.gpu, &self.resources, light, scene, shot)?;
         Ok(Prepared { motion, data, tonemap })
     }
 
-    /// Makes what the environment is on the device, if the last frame had another one.
-    fn prepare_environment(&mut self, environment: &Arc<Environment>) -> Result<(), RenderError> {
-        if !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment)) {
-            // The old one goes first: two need not fit at once.
+    /// Makes what the environment is on the device, if the last frame had another one; the old one goes first, as two
+    /// need not fit at once.
+    fn prepare_environment(&mut self, plan: &Plan, options: &FrameOptions) -> Result<(), RenderError> {
+        let (gpu, environment, quality) = (&self.gpu, &options.surroundings.environment, options.environment_quality);
+        if plan.is_lit() && !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment, quality)) {
             self.environment = None;
-            self.environment = Some(EnvironmentMaps::new(&self.gpu, environment)?);
+            self.environment = Some(EnvironmentMaps::new(gpu, environment, quality)?);
+        }
+        if plan.binds_lobes() && !self.lobes.as_ref().is_some_and(|lobes| lobes.is_of(&quality)) {
+            self.lobes = Some(LobeTable::new(gpu, &quality)?);
+        }
+        if options.shows_environment() && !self.backdrop.as_ref().is_some_and(|image| image.is_of(environment)) {
+            self.backdrop = None;
+            self.backdrop = Some(BackdropImage::new(gpu, environment)?);
         }
         Ok(())
     }
@@ -396,7 +420,8 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
-        let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
+        let display =
+            Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), self.backdrop.as_ref(), target)?;
         let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
         let composition = composition.as_ref();
         let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, composition };

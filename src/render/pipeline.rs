@@ -255,10 +255,10 @@ impl PipelineSpec {
     }
 
     /// The pipeline that makes a picture of `target_format` from the HDR image.
-    pub fn tonemap(tonemap: Tonemap, hdr_format: HdrFormat, target_format: vk::Format) -> Self {
+    pub fn tonemap(tonemap: Tonemap, hdr_format: HdrFormat, target_format: vk::Format, backdrop: bool) -> Self {
         Self {
             vertex: "tonemap.vert".to_owned(),
-            fragment: "tonemap.frag".to_owned(),
+            fragment: if backdrop { "tonemap.frag+BACKDROP" } else { "tonemap.frag" }.to_owned(),
             constants: vec![
                 ("OPERATOR", tonemap.operator()),
                 ("ENCODE_SRGB", u32::from(!is_srgb(target_format))),

@@ -306,6 +306,11 @@ impl Plan {
         self.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"))
     }
 
+    /// Whether any shader asks how lobes look into the environment.
+    pub fn binds_lobes(&self) -> bool {
+        self.pipelines.iter().any(|spec| spec.bindings().contains("lobe_table"))
+    }
+
     /// How often the vertices and indices of (mesh, primitive) are on the device.
     pub fn copies_of(&self, index: (usize, usize)) -> u32 {
         self.copies.get(&index).copied().unwrap_or(1)
