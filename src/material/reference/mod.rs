@@ -16,6 +16,7 @@ pub mod gauze;
 pub mod ggx;
 pub mod glint;
 pub mod hash;
+pub mod horizon;
 pub mod hsv;
 pub mod laser;
 pub mod layered;

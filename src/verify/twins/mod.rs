@@ -12,6 +12,7 @@ mod gauze;
 mod ggx;
 mod glint;
 mod hash;
+mod horizon;
 mod hsv;
 mod laser;
 mod layered;
@@ -42,6 +43,7 @@ const FILES: &[&[Twin]] = &[
     ggx::TWINS,
     glint::TWINS,
     hash::TWINS,
+    horizon::TWINS,
     hsv::TWINS,
     laser::TWINS,
     layered::TWINS,
