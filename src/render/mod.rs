@@ -3,8 +3,10 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod aov;
 mod cloth;
 mod count;
+mod exr;
 mod file;
 mod frame;
 mod frame_data;
@@ -27,6 +29,7 @@ mod table;
 mod targets;
 mod texture;
 
+pub use aov::{AovPixels, Aovs, EMPTY_DEPTH_M};
 pub use count::PassFragments;
 pub use file::write_file;
 pub use left_out::LeftOut;
@@ -243,6 +246,7 @@ impl Renderer {
                 Background::Color(color) => Some(color),
                 Background::Transparent => None,
             },
+            aovs: AovPixels::default(),
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
         let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
