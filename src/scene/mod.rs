@@ -15,6 +15,7 @@ mod light;
 mod lint;
 mod load;
 mod shell;
+mod surroundings;
 
 pub use animation::{Pose, pose};
 pub use bounds::{object_scale, world_hull};
@@ -24,9 +25,7 @@ pub use deform::deform;
 pub use error::SceneError;
 pub use facing::{Patches, Side};
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
-pub use light::{
-    AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
-    lighting,
-};
+pub use light::{Incident, Light, LightKind, Lighting, lights};
 pub use load::{Scene, Size};
 pub use shell::{shell_directions, shell_directions_of_mesh};
+pub use surroundings::Surroundings;
