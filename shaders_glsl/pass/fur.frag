@@ -14,6 +14,9 @@
 #ifdef COUNT
 #include "count.glsl"
 #endif
+#ifdef GUIDE
+#include "guide.glsl"
+#endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
 layout(constant_id = 5) const uint SAMPLE_COUNT = 1;
@@ -215,9 +218,17 @@ void main() {
     uint samples = SAMPLE_COUNT;
     float unresolved = strand_unresolved(slope);
     int mask = -1;
+#ifdef GUIDE
+    // One sample, and what blends counts where it covers more than half.
+    if (BLEND) {
+        mask = opacity > 0.5 ? -1 : 0;
+    } else
+#else
     if (BLEND) {
         mask = opacity > 0.0 ? -1 : 0;
-    } else {
+    } else
+#endif
+    {
         // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
         // Seen one by one, the shells of a strand cover the same samples; means are met by chance, each its own.
         vec2 grain = coverage_grain(root_in_rest, pixel_in_rest, unresolved > 0.0 ? layer : 0u);
@@ -228,6 +239,10 @@ void main() {
     count_fragment(uint(mask), samples, !BLEND);
     radiance = vec4(1.0);
     if (mask == 0) { discard; }
+#elif defined GUIDE
+    if (mask == 0) { discard; }
+    // No light here: the target is the guide's.
+    radiance = guide_texel(normal);
 #else
     if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
@@ -254,7 +269,7 @@ void main() {
     color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
 
     float variance = strand_variance(fur.roughness);
-    vec3 sum = environment_irradiance(normal) * color * mix(1.0 - fur.occlusion, 1.0, height);
+    vec3 sum = screen_occlusion() * environment_irradiance(normal) * color * mix(1.0 - fur.occlusion, 1.0, height);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         float through = strand_light_through_coat(height, fur.occlusion, dot(normal, light.direction_in_world));

@@ -14,6 +14,10 @@ layout(set = 0, binding = 3) uniform sampler environment_sampler;
 layout(set = 0, binding = 4) uniform texture2D lobe_table;
 layout(set = 0, binding = 5) uniform sampler lobe_table_sampler;
 
+#ifdef OCCLUDED
+layout(set = 0, binding = 12) uniform texture2D screen_occlusion_map;
+#endif
+
 // Lights that reach this object.
 uint light_count() {
     return frame.light_count;
@@ -26,6 +30,9 @@ LightSample light_at(uint index, vec3 position_in_world) {
 
 // Share of the ambient light that what stands around lets through, as the screen shows it.
 float screen_occlusion() {
+#ifdef OCCLUDED
+    if (HAS_SCREEN_OCCLUSION) { return texelFetch(sampler2D(screen_occlusion_map, environment_sampler), ivec2(gl_FragCoord.xy), 0).r; }
+#endif
     return 1.0;
 }
 

@@ -22,6 +22,7 @@ pub mod laser;
 pub mod layered;
 pub mod light;
 pub mod lock;
+pub mod octahedral;
 pub mod satin;
 pub mod sheen;
 pub mod standard;

@@ -18,6 +18,7 @@ mod laser;
 mod layered;
 mod light;
 mod lock;
+mod octahedral;
 mod satin;
 mod sheen;
 mod standard;
@@ -49,6 +50,7 @@ const FILES: &[&[Twin]] = &[
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
+    octahedral::TWINS,
     satin::TWINS,
     sheen::TWINS,
     standard::TWINS,
