@@ -115,10 +115,11 @@ fn draws(plan: &Plan, pass: Pass) -> usize {
     match pass {
         Pass::Deform => plan.deforms.len(),
         Pass::Sway => plan.sways.len(),
+        Pass::Guide => plan.guide.len(),
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
-        Pass::Tonemap => 1,
+        Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur | Pass::Tonemap => 1,
     }
 }
 

@@ -7,7 +7,7 @@
 use super::frame_data::FrameData;
 use super::pass::{Frame, draws};
 use super::plan::Pass;
-use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
+use super::{Aovs, FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
 use crate::gpu::{BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload};
 use crate::scene::Scene;
 use crate::shader::layout::{FragmentCounts, RowCounts};
@@ -68,12 +68,15 @@ impl Renderer {
                 "counting needs fragment shaders that write memory, and room for every sample's depth".to_owned();
             return Err(GpuError::Unsupported { name: "fragment counts".to_owned(), problem }.into());
         }
+        // Shading alone is counted.
+        let options = &FrameOptions { aovs: Aovs::default(), screen_occlusion: None, ..options.clone() };
         let mut shot = Shot::new(scene, options)?;
+        shot.plan.guide.clear();
         for spec in &mut shot.plan.pipelines {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, None, scene, &shot)?;
+        let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot, options.size)?;
         let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;

@@ -6,12 +6,13 @@ use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan};
+use super::previous::Previous;
 use super::resources::Resources;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
 use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, Surroundings, joint_matrices};
-use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
+use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms, PreviousFrame};
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec3};
@@ -28,6 +29,8 @@ pub struct FrameData {
     frame: Buffer,
     lights: Option<Buffer>,
     objects: Buffer,
+    /// Camera and places of the previous frame, where motion is asked for.
+    previous: Option<[Buffer; 2]>,
     /// Bind groups of all objects by set and names: most pipelines have the same.
     shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
     /// Coat bind groups by (instance, pipeline).
@@ -43,8 +46,10 @@ impl FrameData {
         gpu: &Gpu,
         resources: &Resources,
         environment: Option<&EnvironmentMaps>,
+        occlusion: Option<&Image>,
         scene: &Scene,
         shot: &Shot,
+        size: [u32; 2],
     ) -> Result<Self, GpuError> {
         let Shot { plan, camera, lighting, .. } = shot;
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
@@ -59,11 +64,15 @@ impl FrameData {
                 None
             },
             objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
+            previous: match &shot.previous {
+                Some(previous) => Some(previous_buffers(gpu, scene, previous, size)?),
+                None => None,
+            },
             shared_groups: HashMap::new(),
             coat_groups: HashMap::new(),
         };
-        data.bind_shared(gpu, resources, environment, plan)?;
-        for draw in plan.fur.iter().chain(&plan.transparent) {
+        data.bind_shared(gpu, resources, environment, occlusion, plan)?;
+        for draw in plan.fur.iter().chain(&plan.transparent).chain(&plan.guide) {
             data.bind_coat(gpu, resources, scene, shot, draw)?;
         }
         Ok(data)
@@ -74,6 +83,7 @@ impl FrameData {
         gpu: &Gpu,
         resources: &Resources,
         environment: Option<&EnvironmentMaps>,
+        occlusion: Option<&Image>,
         plan: &Plan,
     ) -> Result<(), GpuError> {
         let mut offered =
@@ -82,6 +92,11 @@ impl FrameData {
             offered.push(("environment_map", Resource::Texture(&maps.map)));
             offered.push(("environment_sampler", Resource::Sampler(&maps.sampler)));
         }
+        if let Some([frame, objects]) = &self.previous {
+            offered.push(("PreviousFrameBlock", Resource::Buffer(frame)));
+            offered.push(("PreviousObjectList", Resource::Buffer(objects)));
+        }
+        offered.extend(occlusion.map(|image| ("screen_occlusion_map", Resource::Texture(image))));
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));
         }
@@ -133,6 +148,21 @@ pub(super) fn filled<T: NoUninit>(
     let buffer = gpu.buffer(name, bytes, usage, Memory::Upload)?;
     buffer.write(0, values)?;
     Ok(buffer)
+}
+
+/// Camera and places of the previous frame, for a picture of `size`.
+fn previous_buffers(gpu: &Gpu, scene: &Scene, previous: &Previous, size: [u32; 2]) -> Result<[Buffer; 2], GpuError> {
+    let [width, height] = size.map(|side| side as f32);
+    let frame = PreviousFrame {
+        clip_from_world: previous.camera.clip_from_world().to_cols_array_2d(),
+        pixels_from_clip: [0.5 * width, -0.5 * height],
+        ..Default::default()
+    };
+    let objects: Vec<_> = previous.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
+    Ok([
+        filled(gpu, "previous frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
+        filled(gpu, "previous objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
+    ])
 }
 
 fn frame_uniforms(camera: &Camera, lighting: &Lighting, environment: Option<&EnvironmentMaps>) -> FrameUniforms {

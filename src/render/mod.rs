@@ -18,11 +18,13 @@ mod map;
 mod material;
 mod memory;
 mod motion;
+mod occlusion;
 mod options;
 mod pass;
 mod picture;
 mod pipeline;
 mod plan;
+mod previous;
 mod report;
 mod resources;
 mod stream;
@@ -37,6 +39,7 @@ pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
+pub use occlusion::{MAX_OCCLUSION_SAMPLES, ScreenOcclusion};
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap,
@@ -44,12 +47,13 @@ pub use options::{
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
+pub use previous::Previous;
 pub use report::{CoatReport, CpuPhases, FrameReport};
-pub use stream::Stream;
+pub use stream::{Moment, Stream};
 pub use table::Table;
 pub use targets::Attachment;
 
-use crate::asset::Environment;
+use crate::asset::{Asset, Environment};
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
@@ -58,6 +62,7 @@ use frame_data::FrameData;
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
+use pass::screen_occlusion::Occluders;
 use pass::tonemap::Display;
 use pass::{Frame, Moving};
 use resources::Resources;
@@ -120,6 +125,10 @@ pub struct Shot {
     pub camera: Camera,
     /// Lights and surroundings.
     pub lighting: Lighting,
+    /// Where everything was before, where motion is asked for.
+    pub previous: Option<Previous>,
+    /// Bounding radius of what the scene shows, metres.
+    pub radius_m: f32,
     /// What the frame needs.
     pub plan: Plan,
 }
@@ -133,12 +142,7 @@ impl Shot {
         options.check(scene.asset())?;
         let asset = &scene.asset();
         let scene_index = options.scene.unwrap_or(asset.default_scene);
-        let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {
-            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => {
-                options.time_s.rem_euclid(duration_s)
-            }
-            _ => options.time_s,
-        };
+        let time_s = clip_time_s(asset, options.animation, options.time_s);
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
         options.check_coats(scene, &instances)?;
@@ -149,10 +153,20 @@ impl Shot {
         let lighting = Lighting { lights, surroundings: options.surroundings.clone() };
         Ok(Self {
             camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
+            previous: Previous::new(scene, &instances, options)?,
+            radius_m: shown.bounds().sphere().radius,
             plan: Plan::new(scene, instances, &lighting, options),
             lighting,
             pose,
         })
+    }
+}
+
+/// Beyond its end a clip starts again.
+fn clip_time_s(asset: &Asset, animation: Option<usize>, time_s: f32) -> f32 {
+    match animation.map(|index| asset.animations[index].duration_s) {
+        Some(duration_s) if duration_s > 0.0 && time_s > duration_s => time_s.rem_euclid(duration_s),
+        _ => time_s,
     }
 }
 
@@ -262,7 +276,10 @@ impl Renderer {
                 Background::Color(color) => Some(color),
                 Background::Transparent => None,
             },
-            aovs: AovPixels::default(),
+            aovs: match self.targets.as_ref().and_then(|targets| targets.guide.as_ref()) {
+                Some(guide) if options.aovs.any() => AovPixels::read(&self.gpu, guide, &shot.camera, options)?,
+                _ => AovPixels::default(),
+            },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
         let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
@@ -302,7 +319,8 @@ impl Renderer {
         }
         // Strands only ask where their roots are.
         deforms.retain(|deform| {
-            deform.stream == Stream::Position && sways.iter().any(|sway| sway.instance == deform.instance)
+            (deform.stream, deform.moment) == (Stream::Position, Moment::Frame)
+                && sways.iter().any(|sway| sway.instance == deform.instance)
         });
         let motion = self.prepare_motion(scene, &shot, options)?;
         let mut encoder = self.gpu.encoder("advance")?;
@@ -334,7 +352,21 @@ impl Renderer {
         if shot.plan.is_lit() {
             self.prepare_environment(&shot.lighting.surroundings.environment)?;
         }
-        let data = FrameData::new(&self.gpu, &self.resources, self.environment.as_ref(), scene, shot)?;
+        let occlusion = self.targets.as_ref().and_then(|targets| targets.occlusion.as_ref());
+        if occlusion.is_some() {
+            for spec in PipelineSpec::screen_occlusion() {
+                self.resources.make_pipeline(&spec)?;
+            }
+        }
+        let data = FrameData::new(
+            &self.gpu,
+            &self.resources,
+            self.environment.as_ref(),
+            occlusion.map(|targets| &targets.visibility),
+            scene,
+            shot,
+            options.size,
+        )?;
         Ok(Prepared { motion, data, tonemap })
     }
 
@@ -376,7 +408,11 @@ impl Renderer {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
         let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
         let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data };
-        frame::record(encoder, &frame, targets, &display);
+        let occluders = match (&targets.guide, &targets.occlusion) {
+            (Some(guide), Some(occlusion)) => Some(Occluders::new(&self.gpu, resources, guide, occlusion)?),
+            _ => None,
+        };
+        frame::record(encoder, &frame, targets, occluders.as_ref(), &display);
         self.keep(scene, options);
         Ok(())
     }
