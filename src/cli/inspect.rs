@@ -119,6 +119,7 @@ fn draws(plan: &Plan, pass: Pass) -> usize {
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
+        Pass::Transparency => usize::from(plan.composition.is_some()),
         Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur | Pass::Tonemap => 1,
     }
 }

@@ -77,7 +77,8 @@ impl Renderer {
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
         let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot, options.size)?;
-        let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data };
+        let resources = &self.resources;
+        let frame = Frame { scene, shot: &shot, options, resources, motion: &motion, data: &data, composition: None };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
         let target = self.gpu.image(&ImageDesc {

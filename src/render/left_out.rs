@@ -34,7 +34,7 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
         list.add("blending pipeline", "no material blends");
     }
     let screen_occlusion = Some(ScreenOcclusion::default());
-    let most = Attachment::all(&FrameOptions { msaa: 4, screen_occlusion, ..options.clone() });
+    let most = Attachment::all(&FrameOptions { msaa: 4, screen_occlusion, ..options.clone() }, false);
     for left in most.iter().filter(|most| !plan.attachments.iter().any(|attachment| attachment.name == most.name)) {
         list.add(format!("attachment {}", left.name), reason_of_attachment(left.name));
     }
@@ -68,6 +68,8 @@ fn reason_of_pass(plan: &Plan, pass: Pass) -> &'static str {
         Pass::Fur if plan.has_fur() => "every coat blends",
         Pass::Fur => "no triangles have a material with fur",
         Pass::Transparent => "no material blends",
+        Pass::Transparency if plan.transparent.is_empty() => "no material blends",
+        Pass::Transparency => "what blends is sorted by objects",
         Pass::Opaque | Pass::Tonemap => "not in this plan",
     }
 }

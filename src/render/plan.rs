@@ -113,13 +113,15 @@ pub enum Pass {
     Fur,
     /// Blended surfaces and coats, far to near.
     Transparent,
+    /// Lists of what blends over what is opaque.
+    Transparency,
     /// HDR to picture.
     Tonemap,
 }
 
 impl Pass {
     /// All, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Deform,
         Self::Sway,
         Self::Guide,
@@ -128,6 +130,7 @@ impl Pass {
         Self::Opaque,
         Self::Fur,
         Self::Transparent,
+        Self::Transparency,
         Self::Tonemap,
     ];
 
@@ -142,6 +145,7 @@ impl Pass {
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
+            Self::Transparency => "transparency",
             Self::Tonemap => "tonemap",
         }
     }
@@ -174,6 +178,8 @@ pub struct Plan {
     pub fur: Vec<Draw>,
     /// Draws of the transparent pass, unsorted.
     pub transparent: Vec<Draw>,
+    /// The pipeline that composes lists of what blends; `None` where nothing is listed.
+    pub composition: Option<PipelineSpec>,
     /// Vertex streams to upload, by (mesh, primitive).
     pub streams: BTreeMap<(usize, usize), BTreeSet<Stream>>,
     /// Primitives, by (mesh, primitive), whose vertices and indices are uploaded once a shell, and how often that is.
@@ -195,8 +201,7 @@ pub struct Plan {
 impl Plan {
     /// Decides what `options` of `scene` needs; `instances` and `lighting` are those of the pose to be shown.
     pub fn new(scene: &Scene, instances: Vec<Instance>, lighting: &Lighting, options: &FrameOptions) -> Self {
-        let lit = Lit::new(lighting, options);
-        let mut plan = Self { instances, lit, attachments: Attachment::all(options), ..Self::default() };
+        let mut plan = Self { instances, lit: Lit::new(lighting, options), ..Self::default() };
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
@@ -296,7 +301,8 @@ impl Plan {
             DrawKind::Fur { .. } => true,
         };
         let faces: &[Faces] = match is_two_sided {
-            true if spec.blend && geometry.topology == Topology::Triangles => {
+            // Lists take both sides at once, in whatever order.
+            true if spec.blend && !spec.lists() && geometry.topology == Topology::Triangles => {
                 &[Faces::One(Side::Back), Faces::One(Side::Front)]
             }
             true => &[Faces::Both],
@@ -377,6 +383,9 @@ impl Plan {
     }
 
     fn add_passes(&mut self, options: &FrameOptions) {
+        let lists = self.pipelines.iter().any(PipelineSpec::lists);
+        self.composition = lists.then(|| PipelineSpec::composition(options));
+        self.attachments = Attachment::all(options, lists);
         // One pipeline after another: state changes cost more than order saves among opaque surfaces.
         self.opaque.sort_by_key(|draw| draw.pipeline);
         for (pass, wanted) in [
@@ -388,6 +397,7 @@ impl Plan {
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),
+            (Pass::Transparency, self.composition.is_some()),
             (Pass::Tonemap, true),
         ] {
             if wanted || options.everything {

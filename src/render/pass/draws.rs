@@ -21,7 +21,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
     let plan = &frame.shot.plan;
     let mut bound = None;
     let mut vertex_inputs = Vec::new();
-    for draw in draws {
+    for (rank, draw) in draws.iter().enumerate() {
         let spec = &plan.pipelines[draw.pipeline];
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
             pass.pipeline(resources.pipeline(spec));
@@ -50,6 +50,8 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         let object = ObjectDraw {
             object_index: draw.instance as u32,
             vertices_per_shell: primitive.vertices.positions.len() as u32,
+            rank: rank as u32,
+            metres_per_unit: scene.size(instance).world_from_rest,
             ..Default::default()
         };
         pass.push(&object);

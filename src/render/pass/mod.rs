@@ -7,6 +7,7 @@ pub mod order;
 pub mod screen_occlusion;
 pub mod sway;
 pub mod tonemap;
+pub mod transparency;
 
 use super::Shot;
 use super::frame_data::FrameData;
@@ -14,6 +15,7 @@ use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
 use crate::scene::Scene;
+use transparency::Composition;
 
 /// What the passes that move vertices share.
 pub struct Moving<'a> {
@@ -49,4 +51,6 @@ pub struct Frame<'a> {
     pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
+    /// Where what blends goes; `None` where nothing is listed, or fragments are only counted.
+    pub composition: Option<&'a Composition<'a>>,
 }

@@ -6,6 +6,8 @@ mod color;
 mod cotton;
 mod coverage;
 mod direction;
+mod environment;
+mod fibre;
 mod film;
 mod fuzz;
 mod gauze;
@@ -25,6 +27,7 @@ mod standard;
 mod strand;
 mod sway;
 mod tonemap;
+mod transparency;
 mod uv;
 mod velvet;
 
@@ -38,6 +41,8 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    fibre::TWINS,
+    environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
     gauze::TWINS,
@@ -57,6 +62,7 @@ const FILES: &[&[Twin]] = &[
     strand::TWINS,
     sway::TWINS,
     tonemap::TWINS,
+    transparency::TWINS,
     uv::TWINS,
     velvet::TWINS,
 ];
