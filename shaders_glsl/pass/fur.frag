@@ -15,6 +15,9 @@
 #ifdef COUNT
 #include "count.glsl"
 #endif
+#ifdef GUIDE
+#include "guide.glsl"
+#endif
 #ifdef LIST
 #include "object.glsl"
 #include "transparency_append.glsl"
@@ -221,9 +224,17 @@ void main() {
     uint samples = SAMPLE_COUNT;
     float unresolved = strand_unresolved(slope);
     int mask = -1;
+#ifdef GUIDE
+    // One sample, and what blends counts where it covers more than half.
+    if (BLEND) {
+        mask = opacity > 0.5 ? -1 : 0;
+    } else
+#else
     if (BLEND) {
         mask = opacity > 0.0 ? -1 : 0;
-    } else {
+    } else
+#endif
+    {
         // Where strands are smaller than pixels, and where partial opacity is wanted, grain keeps its mean.
         // Seen one by one, the shells of a strand cover the same samples; means are met by chance, each its own.
         vec2 grain = coverage_grain(root_in_rest, pixel_in_rest, unresolved > 0.0 ? layer : 0u);
@@ -234,6 +245,10 @@ void main() {
     count_fragment(uint(mask), samples, !BLEND);
     radiance = vec4(1.0);
     if (mask == 0) { discard; }
+#elif defined GUIDE
+    if (mask == 0) { discard; }
+    // No light here: the target is the guide's.
+    radiance = guide_texel(normal);
 #else
 #ifdef LIST
     vec2 depth_slope = list_slope();

@@ -9,6 +9,9 @@
 #include "hash.glsl"
 #include "strand.glsl"
 #include "uv.glsl"
+#ifdef MOTION
+#include "motion.glsl"
+#endif
 
 layout(constant_id = 0) const bool INNER_FIRST = false;    // 1: instance 0 is the innermost (blend mode)
 layout(constant_id = 14) const uint SAMPLING = 0;          // 0 slab, 1 point
@@ -46,6 +49,13 @@ layout(location = 7) in vec3 shell_side;
 layout(location = 8) in vec3 sway; // force of the strands' own inertia, of length in [0, 1], world space
 #endif
 
+#ifdef MOTION
+layout(location = 10) in vec3 previous_direction;
+#ifdef COMB
+layout(location = 11) in vec3 previous_side;
+#endif
+#endif
+
 layout(location = 0) out vec3 position_in_world;
 layout(location = 1) out vec3 root_direction_in_world;
 layout(location = 2) out vec3 strand_in_world;      // tangent of the strand at this height
@@ -59,10 +69,44 @@ layout(location = 6) out vec4 uv_sets;
 layout(location = 7) out vec3 vertex_color;
 #endif
 
+// A place on a strand.
+struct StrandPlace {
+    vec3 position;             // world space
+    vec3 tangent;
+};
+
+// What bends strands beside the comb. The strands' own inertia is that of this frame in the previous one, too.
+vec3 bending_force() {
+    vec3 total = fur.force;
+#ifdef SWAY
+    total += sway;
+#endif
+    return total;
+}
+
+// At a height of the strand that stands on `root`; `side` is the first axis of the comb.
+StrandPlace strand_place(vec3 root, vec3 direction, vec3 side, vec2 comb, float height, float strand_length) {
+    vec3 total = bending_force();
+    side = direction_or(side - dot(side, direction) * direction, vec3(0.0));
+    total += comb.x * side + comb.y * cross(direction, side);
+    float strength = length(total);
+    if (strength > 1.0) { total /= strength; }
+
+    vec3 sideways = direction_or(total - dot(total, direction) * direction, vec3(0.0));
+    float angle = strand_bend_angle(direction, total);
+    vec2 bent = strand_arc(height, angle);
+    return StrandPlace(root + (sideways * bent.x + direction * bent.y) * strand_length,
+                       sideways * sin(angle * height) + direction * cos(angle * height));
+}
+
+vec3 root_direction(ObjectUniforms object, vec3 direction) {
+    return direction_or(mat3(object.normal_from_object) * direction, vec3(0.0, 1.0, 0.0));
+}
+
 void main() {
     mat4 world_from_object = objects[draw.object_index].world_from_object;
     vec3 root = (world_from_object * vec4(position, 1.0)).xyz;
-    vec3 direction = direction_or(mat3(objects[draw.object_index].normal_from_object) * shell_direction, vec3(0.0, 1.0, 0.0));
+    vec3 direction = root_direction(objects[draw.object_index], shell_direction);
 
     uint shell = uint(gl_InstanceIndex);
     if (SHELL_SOURCE == 1u) { shell = draw.shell; }
@@ -86,36 +130,36 @@ void main() {
     }
 #endif
 
-    vec3 total = fur.force;
-#ifdef SWAY
-    total += sway;
-#endif
+    vec3 side = vec3(0.0);
+    vec2 comb = vec2(0.0);
 #ifdef COMB
     // The comb lays strands over in the tangent plane; its axes are fixed to the surface and move with it.
-    vec3 side = mat3(world_from_object) * shell_side;
-    side = direction_or(side - dot(side, direction) * direction, vec3(0.0));
-    vec2 comb = fur.comb;
+    side = mat3(world_from_object) * shell_side;
+    comb = fur.comb;
 #ifdef MAPS
     if (HAS_COMB_MAP) {
         vec2 uv = uv_transformed(fur.comb_transform, uv_sets.xy, uv_sets.zw);
         comb += textureLod(sampler2D(comb_map, comb_sampler), uv, 0.0).rg * 2.0 - 1.0;
     }
 #endif
-    total += comb.x * side + comb.y * cross(direction, side);
 #endif
-    float strength = length(total);
-    if (strength > 1.0) { total /= strength; }
-
-    vec3 sideways = direction_or(total - dot(total, direction) * direction, vec3(0.0));
-    float angle = strand_bend_angle(direction, total);
-    vec2 bent = strand_arc(height, angle);
-    position_in_world = root + (sideways * bent.x + direction * bent.y) * strand_length;
-    vec3 strand = sideways * sin(angle * height) + direction * cos(angle * height);
+    StrandPlace place = strand_place(root, direction, side, comb, height, strand_length);
+    position_in_world = place.position;
 
     root_direction_in_world = direction;
-    strand_in_world = strand;
+    strand_in_world = place.tangent;
     root_in_rest = rest_position;
     direction_in_rest = rest_direction;
     height_and_length = vec2(height, strand_length);
     gl_Position = frame.clip_from_world * vec4(position_in_world, 1.0);
+#ifdef MOTION
+    mat4 world_from_previous = previous_objects[draw.object_index].world_from_object;
+    vec3 was_root = (world_from_previous * vec4(previous_position, 1.0)).xyz;
+    vec3 was_direction = root_direction(previous_objects[draw.object_index], previous_direction);
+    vec3 was_side = vec3(0.0);
+#ifdef COMB
+    was_side = mat3(world_from_previous) * previous_side;
+#endif
+    motion_write(gl_Position, strand_place(was_root, was_direction, was_side, comb, height, strand_length).position);
+#endif
 }

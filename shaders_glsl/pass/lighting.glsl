@@ -15,6 +15,11 @@ layout(set = 0, binding = 3) uniform sampler environment_sampler;
 layout(set = 0, binding = 4) uniform texture2D lobe_table;
 layout(set = 0, binding = 5) uniform sampler lobe_table_sampler;
 
+#ifdef OCCLUDED
+#extension GL_EXT_samplerless_texture_functions : require
+layout(set = 0, binding = 12) uniform texture2D screen_occlusion_map;
+#endif
+
 // Lights that reach this object.
 uint light_count() {
     return frame.light_count;
@@ -27,6 +32,9 @@ LightSample light_at(uint index, vec3 position_in_world) {
 
 // Share of the ambient light that what stands around lets through, as the screen shows it.
 float screen_occlusion() {
+#ifdef OCCLUDED
+    if (HAS_SCREEN_OCCLUSION) { return texelFetch(screen_occlusion_map, ivec2(gl_FragCoord.xy), 0).r; }
+#endif
     return 1.0;
 }
 

@@ -4,6 +4,9 @@
 #include "frame.glsl"
 #include "object.glsl"
 #include "direction.glsl"
+#ifdef MOTION
+#include "motion.glsl"
+#endif
 
 layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 2, binding = 0, std430) readonly buffer ObjectList { ObjectUniforms objects[]; };
@@ -41,6 +44,9 @@ void main() {
     position_in_world = world.xyz;
     gl_Position = frame.clip_from_world * world;
     gl_PointSize = 1.0;
+#ifdef MOTION
+    motion_write(gl_Position, (previous_objects[draw.object_index].world_from_object * vec4(previous_position, 1.0)).xyz);
+#endif
 #ifndef UNLIT
     // Unit length before interpolation, as MikkTSpace wants it: an object's scale must not tilt mapped normals.
     normal_in_world = direction_or(mat3(objects[draw.object_index].normal_from_object) * normal, vec3(0.0));

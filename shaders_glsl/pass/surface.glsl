@@ -183,7 +183,7 @@ SurfaceFragment surface_fragment(vec4 color) {
     f.base_color = clamp(color.rgb, 0.0, 1.0);
     f.metallic = material.metallic;
     f.roughness = material.roughness;
-    f.occlusion = 1.0;
+    f.occlusion = screen_occlusion();
     f.emissive = material.emissive;
 #ifdef UV
     if (HAS_METALLIC_ROUGHNESS_MAP) {
@@ -195,7 +195,7 @@ SurfaceFragment surface_fragment(vec4 color) {
     if (HAS_OCCLUSION_MAP) {
         vec2 uv = uv_transformed(material.occlusion_transform, uv_sets.xy, uv_sets.zw);
         float map = texture(sampler2D(occlusion_map, occlusion_sampler), uv).r;
-        f.occlusion = 1.0 + material.occlusion_strength * (map - 1.0);
+        f.occlusion *= 1.0 + material.occlusion_strength * (map - 1.0);
     }
     if (HAS_EMISSIVE_MAP) {
         vec2 uv = uv_transformed(material.emissive_transform, uv_sets.xy, uv_sets.zw);

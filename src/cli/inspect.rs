@@ -115,11 +115,12 @@ fn draws(plan: &Plan, pass: Pass) -> usize {
     match pass {
         Pass::Deform => plan.deforms.len(),
         Pass::Sway => plan.sways.len(),
+        Pass::Guide => plan.guide.len(),
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
         Pass::Transparency => usize::from(plan.composition.is_some()),
-        Pass::Tonemap => 1,
+        Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur | Pass::Tonemap => 1,
     }
 }
 

@@ -55,6 +55,9 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
         return Err(UsageError("--out - holds one picture; give a sequence a file name").into());
     }
     let format = if to_stdout { PictureFormat::Png } else { PictureFormat::of(&arguments.out)? };
+    if arguments.scene.aovs().any() && format != PictureFormat::Exr {
+        return Err(UsageError("--aov: only EXR files hold layers; name the picture .exr with --out").into());
+    }
     let count = arguments.frame_numbers().map_or(1, Iterator::count);
     let Some(first) = arguments.shots().next() else {
         bail!("--shard: no frame of this sequence is in that part; use fewer parts than frames");
@@ -76,7 +79,11 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let mut last = None;
     let progress = output::progress(count > 1, "{bar:40} {pos}/{len} frames, {eta} left");
     progress.set_length(count as u64);
-    let at = |offset_s: f64| FrameOptions { time_s: (f64::from(options.time_s) + offset_s) as f32, ..options.clone() };
+    let at = |offset_s: f64| {
+        let time_s = f64::from(options.time_s) + offset_s;
+        let previous_time_s = Some((time_s - 1.0 / f64::from(arguments.fps)) as f32);
+        FrameOptions { time_s: time_s as f32, previous_time_s, ..options.clone() }
+    };
     let sways = |material: &Material| material.fur.as_ref().is_some_and(|fur| fur.inertia > 0.0);
     let sways = scene.materials().iter().any(sways);
     let mut reached = arguments.frames.as_ref().map_or(0, |frames| frames.start);

@@ -11,7 +11,9 @@ use std::sync::Arc;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, Environment, LoadOptions};
 use vair::material::Look;
-use vair::render::{Background, EnvironmentQuality, FrameOptions, HdrFormat, Shells, Tonemap, Transparency};
+use vair::render::{
+    Aovs, Background, EnvironmentQuality, FrameOptions, HdrFormat, ScreenOcclusion, Shells, Tonemap, Transparency,
+};
 use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
 /// What to show.
@@ -69,6 +71,13 @@ pub struct SceneArguments {
     /// Samples a pixel; wins over --quality.
     #[arg(long, value_name = "1/4", value_parser = ["1", "4"])]
     msaa: Option<String>,
+    /// Ambient occlusion from what the screen shows.
+    #[arg(long, value_enum, default_value_t = Switch::Off)]
+    ssao: Switch,
+    /// Layers beside the colour, in the same .exr: depth (metres along the view direction, 1e10 where nothing is), normal
+    /// (world space), motion (pixels since the frame before, at --fps; x to the right, y down).
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "depth,normal,motion", hide_possible_values = true)]
+    aov: Vec<AovChoice>,
     /// Format of the linear colour target.
     #[arg(long, value_enum, default_value_t = HdrChoice::Rgba16f)]
     hdr_format: HdrChoice,
@@ -96,6 +105,19 @@ pub struct SceneArguments {
     background: Background,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum AovChoice {
+    Depth,
+    Normal,
+    Motion,
+}
+
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum HdrChoice {
     Rgba16f,
@@ -121,6 +143,12 @@ impl SceneArguments {
     /// Loads the scene and puts look and preset on it.
     pub fn load(&self) -> Result<Scene> {
         self.load_or(Scene::gallery)
+    }
+
+    /// Layers beside the colour.
+    pub fn aovs(&self) -> Aovs {
+        let has = |choice| self.aov.contains(&choice);
+        Aovs { depth: has(AovChoice::Depth), normal: has(AovChoice::Normal), motion: has(AovChoice::Motion) }
     }
 
     /// No file is named.
@@ -205,6 +233,9 @@ impl SceneArguments {
                 Some(_) => 4,
                 None => self.quality.msaa(),
             },
+            screen_occlusion: (self.ssao == Switch::On).then(ScreenOcclusion::default),
+            aovs: self.aovs(),
+            previous_time_s: None,
             everything: false,
         })
     }

@@ -4,10 +4,10 @@
 //! of the frame is drawn by its counting pipeline ([`PipelineSpec::counting`]), which keeps what decides coverage and
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
-use super::frame_data::{EnvironmentLight, FrameData};
+use super::frame_data::{FrameData, LightMaps};
 use super::pass::{Frame, draws};
 use super::plan::Pass;
-use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
+use super::{Aovs, FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
 use crate::gpu::{BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload};
 use crate::scene::Scene;
 use crate::shader::layout::{FragmentCounts, RowCounts};
@@ -68,12 +68,15 @@ impl Renderer {
                 "counting needs fragment shaders that write memory, and room for every sample's depth".to_owned();
             return Err(GpuError::Unsupported { name: "fragment counts".to_owned(), problem }.into());
         }
+        // Shading alone is counted.
+        let options = &FrameOptions { aovs: Aovs::default(), screen_occlusion: None, ..options.clone() };
         let mut shot = Shot::new(scene, options)?;
+        shot.plan.guide.clear();
         for spec in &mut shot.plan.pipelines {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, EnvironmentLight::default(), scene, &shot)?;
+        let data = FrameData::new(&self.gpu, &self.resources, LightMaps::default(), scene, &shot, options.size)?;
         let resources = &self.resources;
         let frame = Frame { scene, shot: &shot, options, resources, motion: &motion, data: &data, composition: None };
         let lists = frame::draw_lists(&frame);

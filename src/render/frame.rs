@@ -1,15 +1,28 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, Moving, deform, draws, order, sway, tonemap, transparency};
+use super::pass::screen_occlusion::Occluders;
+use super::pass::{Frame, Moving, deform, draws, guide, order, screen_occlusion, sway, tonemap, transparency};
 use super::plan::{Draw, Pass};
 use super::targets::Targets;
 use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
 use std::borrow::Cow;
 
 /// Records all passes of `frame`.
-pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, display: &tonemap::Display) {
+pub fn record(
+    encoder: &mut Encoder,
+    frame: &Frame,
+    targets: &Targets,
+    occluders: Option<&Occluders>,
+    display: &tonemap::Display,
+) {
     record_motion(encoder, &frame.moving());
+    if let Some(targets) = &targets.guide {
+        guide::record(encoder, frame, targets);
+    }
+    if let Some(occluders) = occluders {
+        screen_occlusion::record(encoder, frame, occluders);
+    }
     if let Some(composition) = frame.composition {
         transparency::clear(encoder, composition);
     }
@@ -62,7 +75,8 @@ fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: P
         load: if is_first { Load::Clear([0.0; 4]) } else { Load::Keep },
         store: !is_last || frame.composition.is_some(),
     });
-    let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &[] };
+    let sampled: Vec<_> = targets.occlusion.iter().map(|occlusion| &occlusion.visibility).collect();
+    let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &sampled };
     encoder.render_pass(&desc, |pass| {
         if let Some(composition) = frame.composition {
             pass.bind(transparency::LIST_SET, composition.appending());

@@ -6,12 +6,13 @@ use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
 use super::plan::{Draw, DrawKind, Plan};
+use super::previous::Previous;
 use super::resources::Resources;
-use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
+use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
 use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, Surroundings, joint_matrices};
-use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
+use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms, PreviousFrame};
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec3};
@@ -23,13 +24,15 @@ pub const FRAME_SET: u32 = 0;
 /// Descriptor set of where objects stand.
 pub const OBJECT_SET: u32 = 2;
 
-/// What the environment is on the device, as far as the frame asks for it.
+/// What light is on the device, as far as the frame asks for it.
 #[derive(Clone, Copy, Default)]
-pub struct EnvironmentLight<'a> {
+pub struct LightMaps<'a> {
     /// Cube and harmonics.
-    pub maps: Option<&'a EnvironmentMaps>,
+    pub environment: Option<&'a EnvironmentMaps>,
     /// How lobes look into the cube.
     pub lobes: Option<&'a LobeTable>,
+    /// Screen-space occlusion.
+    pub occlusion: Option<&'a Image>,
 }
 
 /// What one frame reads and no other.
@@ -39,6 +42,8 @@ pub struct FrameData {
     frame: Buffer,
     lights: Option<Buffer>,
     objects: Buffer,
+    /// Camera and places of the previous frame, where motion is asked for.
+    previous: Option<[Buffer; 2]>,
     /// Bind groups of all objects by set and names: most pipelines have the same.
     shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
     /// Coat bind groups by (instance, pipeline).
@@ -53,16 +58,17 @@ impl FrameData {
     pub fn new(
         gpu: &Gpu,
         resources: &Resources,
-        environment: EnvironmentLight,
+        maps: LightMaps,
         scene: &Scene,
         shot: &Shot,
+        size: [u32; 2],
     ) -> Result<Self, GpuError> {
         let Shot { plan, camera, lighting, .. } = shot;
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
-        let frame = frame_uniforms(camera, lighting, environment.maps);
+        let frame = frame_uniforms(camera, lighting, maps.environment);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
-        let mean_radiance = environment.maps.map_or(Vec3::ZERO, EnvironmentMaps::mean_radiance);
+        let mean_radiance = maps.environment.map_or(Vec3::ZERO, EnvironmentMaps::mean_radiance);
         let mut data = Self {
             mean_radiance: mean_radiance * lighting.surroundings.strength,
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
@@ -72,33 +78,36 @@ impl FrameData {
                 None
             },
             objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
+            previous: match &shot.previous {
+                Some(previous) => Some(previous_buffers(gpu, scene, previous, size)?),
+                None => None,
+            },
             shared_groups: HashMap::new(),
             coat_groups: HashMap::new(),
         };
-        data.bind_shared(gpu, resources, environment, plan)?;
-        for draw in plan.fur.iter().chain(&plan.transparent) {
+        data.bind_shared(gpu, resources, maps, plan)?;
+        for draw in plan.fur.iter().chain(&plan.transparent).chain(&plan.guide) {
             data.bind_coat(gpu, resources, scene, shot, draw)?;
         }
         Ok(data)
     }
 
-    fn bind_shared(
-        &mut self,
-        gpu: &Gpu,
-        resources: &Resources,
-        environment: EnvironmentLight,
-        plan: &Plan,
-    ) -> Result<(), GpuError> {
+    fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, maps: LightMaps, plan: &Plan) -> Result<(), GpuError> {
         let mut offered =
             vec![("FrameBlock", Resource::Buffer(&self.frame)), ("ObjectList", Resource::Buffer(&self.objects))];
-        if let Some(maps) = environment.maps {
-            offered.push(("environment_map", Resource::Texture(&maps.map)));
-            offered.push(("environment_sampler", Resource::Sampler(&maps.sampler)));
+        if let Some(environment) = maps.environment {
+            offered.push(("environment_map", Resource::Texture(&environment.map)));
+            offered.push(("environment_sampler", Resource::Sampler(&environment.sampler)));
         }
-        if let Some(lobes) = environment.lobes {
+        if let Some(lobes) = maps.lobes {
             offered.push(("lobe_table", Resource::Texture(&lobes.map)));
             offered.push(("lobe_table_sampler", Resource::Sampler(&lobes.sampler)));
         }
+        if let Some([frame, objects]) = &self.previous {
+            offered.push(("PreviousFrameBlock", Resource::Buffer(frame)));
+            offered.push(("PreviousObjectList", Resource::Buffer(objects)));
+        }
+        offered.extend(maps.occlusion.map(|image| ("screen_occlusion_map", Resource::Texture(image))));
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));
         }
@@ -150,6 +159,21 @@ pub(super) fn filled<T: NoUninit>(
     let buffer = gpu.buffer(name, bytes, usage, Memory::Upload)?;
     buffer.write(0, values)?;
     Ok(buffer)
+}
+
+/// Camera and places of the previous frame, for a picture of `size`.
+fn previous_buffers(gpu: &Gpu, scene: &Scene, previous: &Previous, size: [u32; 2]) -> Result<[Buffer; 2], GpuError> {
+    let [width, height] = size.map(|side| side as f32);
+    let frame = PreviousFrame {
+        clip_from_world: previous.camera.clip_from_world().to_cols_array_2d(),
+        pixels_from_clip: [0.5 * width, -0.5 * height],
+        ..Default::default()
+    };
+    let objects: Vec<_> = previous.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
+    Ok([
+        filled(gpu, "previous frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
+        filled(gpu, "previous objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
+    ])
 }
 
 fn frame_uniforms(camera: &Camera, lighting: &Lighting, environment: Option<&EnvironmentMaps>) -> FrameUniforms {

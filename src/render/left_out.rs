@@ -2,6 +2,7 @@
 
 use super::cloth::cloth_shader;
 use super::map::{fur_maps, surface_maps};
+use super::occlusion::ScreenOcclusion;
 use super::options::FrameOptions;
 use super::pipeline::shader;
 use super::plan::{Pass, Plan, has_stream};
@@ -32,9 +33,10 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
     if !plan.pipelines.iter().any(|spec| spec.blend) {
         list.add("blending pipeline", "no material blends");
     }
-    let most = Attachment::all(&FrameOptions { msaa: 4, ..options.clone() }, false);
+    let screen_occlusion = Some(ScreenOcclusion::default());
+    let most = Attachment::all(&FrameOptions { msaa: 4, screen_occlusion, ..options.clone() }, false);
     for left in most.iter().filter(|most| !plan.attachments.iter().any(|attachment| attachment.name == most.name)) {
-        list.add(format!("attachment {}", left.name), "one sample a pixel was asked for");
+        list.add(format!("attachment {}", left.name), reason_of_attachment(left.name));
     }
     list.bindings(plan, scene);
     list.streams(plan, scene);
@@ -49,10 +51,20 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
     list.0
 }
 
+fn reason_of_attachment(name: &str) -> &'static str {
+    match name {
+        "guide" | "guide depth" => "neither layers nor screen-space occlusion were asked for",
+        "screen occlusion" | "screen occlusion slices" => "screen-space occlusion was not asked for",
+        _ => "one sample a pixel was asked for",
+    }
+}
+
 fn reason_of_pass(plan: &Plan, pass: Pass) -> &'static str {
     match pass {
         Pass::Deform => "nothing in the scene is skinned or morphed",
         Pass::Sway => "no animation moves a coat that has inertia",
+        Pass::Guide => reason_of_attachment("guide"),
+        Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur => reason_of_attachment("screen occlusion"),
         Pass::Fur if plan.has_fur() => "every coat blends",
         Pass::Fur => "no triangles have a material with fur",
         Pass::Transparent => "no material blends",

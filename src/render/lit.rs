@@ -14,8 +14,8 @@ pub struct Lit {
 
 impl Lit {
     /// What `lighting` takes with these options.
-    pub fn new(_lighting: &Lighting, _options: &FrameOptions) -> Self {
-        Self::default()
+    pub fn new(_lighting: &Lighting, options: &FrameOptions) -> Self {
+        Self { shadows: false, screen_occlusion: options.screen_occlusion.is_some() }
     }
 
     /// Something hides light: shaders then have the OCCLUDED bindings.

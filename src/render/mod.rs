@@ -3,9 +3,11 @@
 //! A frame goes one way: [`FrameOptions`] and a [`Scene`] make a [`Shot`] (pose, camera, light and the [`Plan`] of
 //! what is needed), the resources make what the plan lists, and the frame records the passes.
 
+mod aov;
 mod cloth;
 mod count;
 mod environment;
+mod exr;
 mod file;
 mod frame;
 mod frame_data;
@@ -16,11 +18,13 @@ mod map;
 mod material;
 mod memory;
 mod motion;
+mod occlusion;
 mod options;
 mod pass;
 mod picture;
 mod pipeline;
 mod plan;
+mod previous;
 mod report;
 mod resources;
 mod stream;
@@ -29,6 +33,7 @@ mod table;
 mod targets;
 mod texture;
 
+pub use aov::{AovPixels, Aovs, EMPTY_DEPTH_M};
 pub use count::PassFragments;
 pub use environment::{
     Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, make_environment, make_lobes,
@@ -38,6 +43,7 @@ pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
+pub use occlusion::{MAX_OCCLUSION_SAMPLES, ScreenOcclusion};
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
     Tonemap, Transparency,
@@ -46,19 +52,22 @@ pub use pass::transparency::ListUse;
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
+pub use previous::Previous;
 pub use report::{CoatReport, CpuPhases, FrameReport};
-pub use stream::Stream;
+pub use stream::{Moment, Stream};
 pub use table::Table;
 pub use targets::Attachment;
 
+use crate::asset::Asset;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
 use environment::{BackdropImage, EnvironmentMaps, LobeTable};
-use frame_data::{EnvironmentLight, FrameData};
+use frame_data::{FrameData, LightMaps};
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
+use pass::screen_occlusion::Occluders;
 use pass::tonemap::Display;
 use pass::transparency::{Composition, Lists};
 use pass::{Frame, Moving};
@@ -122,6 +131,10 @@ pub struct Shot {
     pub camera: Camera,
     /// Lights and surroundings.
     pub lighting: Lighting,
+    /// Where everything was before, where motion is asked for.
+    pub previous: Option<Previous>,
+    /// Bounding radius of what the scene shows, metres.
+    pub radius_m: f32,
     /// What the frame needs.
     pub plan: Plan,
 }
@@ -135,12 +148,7 @@ impl Shot {
         options.check(scene.asset())?;
         let asset = &scene.asset();
         let scene_index = options.scene.unwrap_or(asset.default_scene);
-        let time_s = match options.animation.map(|index| asset.animations[index].duration_s) {
-            Some(duration_s) if duration_s > 0.0 && options.time_s > duration_s => {
-                options.time_s.rem_euclid(duration_s)
-            }
-            _ => options.time_s,
-        };
+        let time_s = clip_time_s(asset, options.animation, options.time_s);
         let pose = scene::pose(asset, options.animation, time_s);
         let instances = scene::instances(asset, scene_index, &pose, options.variant);
         options.check_coats(scene, &instances)?;
@@ -151,6 +159,8 @@ impl Shot {
         let lighting = Lighting { lights, surroundings: options.surroundings.clone() };
         Ok(Self {
             camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
+            previous: Previous::new(scene, &instances, options)?,
+            radius_m: shown.bounds().sphere().radius,
             plan: Plan::new(scene, instances, &lighting, options),
             lighting,
             pose,
@@ -162,6 +172,14 @@ impl Shot {
     /// What the camera sees of the surroundings.
     fn backdrop(&self, size: [u32; 2]) -> Backdrop {
         Backdrop::new(&self.lighting.surroundings, &self.camera, size)
+    }
+}
+
+/// Beyond its end a clip starts again.
+fn clip_time_s(asset: &Asset, animation: Option<usize>, time_s: f32) -> f32 {
+    match animation.map(|index| asset.animations[index].duration_s) {
+        Some(duration_s) if duration_s > 0.0 && time_s > duration_s => time_s.rem_euclid(duration_s),
+        _ => time_s,
     }
 }
 
@@ -289,6 +307,10 @@ impl Renderer {
                 Background::Color(color) => Behind::Color(color),
                 Background::Transparent => Behind::Transparent,
             },
+            aovs: match self.targets.as_ref().and_then(|targets| targets.guide.as_ref()) {
+                Some(guide) if options.aovs.any() => AovPixels::read(&self.gpu, guide, &shot.camera, options)?,
+                _ => AovPixels::default(),
+            },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
         let mut report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
@@ -330,7 +352,8 @@ impl Renderer {
         }
         // Strands only ask where their roots are.
         deforms.retain(|deform| {
-            deform.stream == Stream::Position && sways.iter().any(|sway| sway.instance == deform.instance)
+            (deform.stream, deform.moment) == (Stream::Position, Moment::Frame)
+                && sways.iter().any(|sway| sway.instance == deform.instance)
         });
         let motion = self.prepare_motion(scene, &shot, options)?;
         let mut encoder = self.gpu.encoder("advance")?;
@@ -372,8 +395,18 @@ impl Renderer {
             self.resources.make_pipeline(spec)?;
         }
         self.prepare_environment(&shot.plan, options)?;
-        let light = EnvironmentLight { maps: self.environment.as_ref(), lobes: self.lobes.as_ref() };
-        let data = FrameData::new(&self.gpu, &self.resources, light, scene, shot)?;
+        let occlusion = self.targets.as_ref().and_then(|targets| targets.occlusion.as_ref());
+        if occlusion.is_some() {
+            for spec in PipelineSpec::screen_occlusion() {
+                self.resources.make_pipeline(&spec)?;
+            }
+        }
+        let maps = LightMaps {
+            environment: self.environment.as_ref(),
+            lobes: self.lobes.as_ref(),
+            occlusion: occlusion.map(|targets| &targets.visibility),
+        };
+        let data = FrameData::new(&self.gpu, &self.resources, maps, scene, shot, options.size)?;
         Ok(Prepared { motion, data, tonemap })
     }
 
@@ -426,7 +459,11 @@ impl Renderer {
         let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
         let composition = composition.as_ref();
         let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, composition };
-        frame::record(encoder, &frame, targets, &display);
+        let occluders = match (&targets.guide, &targets.occlusion) {
+            (Some(guide), Some(occlusion)) => Some(Occluders::new(&self.gpu, resources, guide, occlusion)?),
+            _ => None,
+        };
+        frame::record(encoder, &frame, targets, occluders.as_ref(), &display);
         self.lists.iter_mut().for_each(Lists::keep_count);
         self.keep(scene, options);
         Ok(())

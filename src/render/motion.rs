@@ -4,7 +4,7 @@ use super::Shot;
 use super::frame_data::filled;
 use super::options::FrameOptions;
 use super::resources::Resources;
-use super::stream::Stream;
+use super::stream::{Moment, Stream};
 use super::sway::{SwayMemory, sway_draw};
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
 use crate::scene::{Instance, Scene, joint_matrices};
@@ -18,8 +18,8 @@ const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
 /// What moves in one frame.
 #[derive(Default)]
 pub struct Motion {
-    /// Moved streams of (instance, stream).
-    pub streams: HashMap<(usize, Stream), Buffer>,
+    /// Moved streams of (instance, stream, moment).
+    pub streams: HashMap<(usize, Stream, Moment), Buffer>,
     /// Bind groups of the deform dispatches, in the plan's order.
     pub deform_groups: Vec<BindGroup>,
     /// Bind groups and values of the sway dispatches, in the plan's order.
@@ -51,11 +51,15 @@ impl Motion {
         gpu: &Gpu,
         resources: &Resources,
         scene: &Scene,
-        Shot { plan, pose, .. }: &Shot,
+        Shot { plan, pose, previous, .. }: &Shot,
     ) -> Result<(), GpuError> {
-        let mut joints: HashMap<usize, Buffer> = HashMap::new();
+        let mut joints: HashMap<(usize, Moment), Buffer> = HashMap::new();
         for deform in &plan.deforms {
-            let instance = &plan.instances[deform.instance];
+            let (instances, pose) = match previous {
+                Some(previous) if deform.moment == Moment::Previous => (&previous.instances, &previous.pose),
+                _ => (&plan.instances, pose),
+            };
+            let instance = &instances[deform.instance];
             let index = (instance.mesh, instance.primitive);
             let target = moved_stream(gpu, scene, instance, deform.stream)?;
             let mut offered = vec![
@@ -63,7 +67,7 @@ impl Motion {
                 ("TargetStream", Resource::Buffer(&target)),
             ];
             if let (Some(skin), Some((indices, weights))) = (instance.skin, resources.influences.get(&index)) {
-                let buffer = match joints.entry(skin) {
+                let buffer = match joints.entry((skin, deform.moment)) {
                     Entry::Occupied(known) => known.into_mut(),
                     Entry::Vacant(new) => {
                         let matrices = joint_matrices(scene.asset(), skin, pose);
@@ -82,7 +86,7 @@ impl Motion {
             offered.push(("MorphWeights", Resource::Buffer(weights.as_ref().unwrap_or(rest))));
             let pipeline = resources.compute_pipeline(&plan.compute_pipelines[deform.pipeline]);
             self.deform_groups.push(gpu.bind_group(pipeline, 0, "deform", &offered)?);
-            self.streams.insert((deform.instance, deform.stream), target);
+            self.streams.insert((deform.instance, deform.stream, deform.moment), target);
         }
         Ok(())
     }
@@ -112,7 +116,7 @@ impl Motion {
             };
             let target = moved_stream(gpu, scene, instance, Stream::Sway)?;
             let rest = &resources.streams[&((instance.mesh, instance.primitive), Stream::Position)];
-            let position = self.streams.get(&(sway.instance, Stream::Position)).unwrap_or(rest);
+            let position = self.streams.get(&(sway.instance, Stream::Position, Moment::Frame)).unwrap_or(rest);
             let offered = [
                 ("PositionStream", Resource::Buffer(position)),
                 ("SwayVertexList", Resource::Buffer(&vertices)),
@@ -121,7 +125,7 @@ impl Motion {
             let pipeline = resources.compute_pipeline(&plan.compute_pipelines[sway.pipeline]);
             let group = gpu.bind_group(pipeline, 0, "sway", &offered)?;
             self.sways.push((group, SwayDraw { reset, step_s, ..sway_draw(scene, instance, fur, count as u32) }));
-            self.streams.insert((sway.instance, Stream::Sway), target);
+            self.streams.insert((sway.instance, Stream::Sway, Moment::Frame), target);
             memory.vertices.insert(key, vertices);
         }
         Ok(())

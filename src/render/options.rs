@@ -1,6 +1,6 @@
 //! What one frame is asked to be.
 
-use super::{EnvironmentQuality, RenderError};
+use super::{Aovs, EnvironmentQuality, RenderError, ScreenOcclusion};
 use crate::asset::{Asset, Primitive, Topology};
 use crate::material::{Fur, Material};
 use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
@@ -50,6 +50,12 @@ pub struct FrameOptions {
     pub transparency: Transparency,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
+    /// Ambient occlusion from what the screen shows; `None`: materials' own maps alone.
+    pub screen_occlusion: Option<ScreenOcclusion>,
+    /// Layers kept beside the colour.
+    pub aovs: Aovs,
+    /// Seconds into the clip of the frame before, from which motion is counted; `None`: the same moment.
+    pub previous_time_s: Option<f32>,
     /// Draws the frame with everything that a plan can leave out: every pass, the largest permutations with texels that
     /// change nothing, all vertex streams. The same picture; what leaving out saves is the difference.
     pub everything: bool,
@@ -76,6 +82,9 @@ impl Default for FrameOptions {
             shells: Shells::default(),
             transparency: Transparency::default(),
             msaa: 4,
+            screen_occlusion: None,
+            aovs: Aovs::default(),
+            previous_time_s: None,
             everything: false,
         }
     }
@@ -93,6 +102,11 @@ impl FrameOptions {
         self.background == Background::Environment
             && self.hdr_format.has_alpha()
             && self.surroundings.constant_radiance().is_none()
+    }
+
+    /// Whether the frame needs depth, normal or motion of what is nearest.
+    pub(super) fn has_guide(&self) -> bool {
+        self.aovs.any() || self.screen_occlusion.is_some() || self.everything
     }
 
     /// Whether strands of this coat lag behind: they have inertia, and something can move them.
@@ -113,6 +127,9 @@ impl FrameOptions {
         if !matches!(self.msaa, 1 | 4) {
             return wrong("msaa", format!("{} samples are not supported; choose 1 or 4", self.msaa));
         }
+        if let Some(occlusion) = self.screen_occlusion {
+            occlusion.check()?;
+        }
         if self.layers.is_some_and(|layers| !(1..=MAX_LAYERS).contains(&layers)) {
             return wrong("layers", format!("the number of shells must be 1 to {MAX_LAYERS}"));
         }
@@ -129,7 +146,8 @@ impl FrameOptions {
         if self.lights.iter().any(|light| !light.is_finite()) {
             return wrong("lights", "places, directions and intensities must be finite".to_owned());
         }
-        if !self.time_s.is_finite() || !self.exposure_ev.is_finite() {
+        let times_s = [self.time_s, self.previous_time_s.unwrap_or_default()];
+        if !times_s.iter().all(|time_s| time_s.is_finite()) || !self.exposure_ev.is_finite() {
             return wrong("time and exposure", "must be finite numbers".to_owned());
         }
         if self.background == Background::Transparent && !self.hdr_format.has_alpha() {

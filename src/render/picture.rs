@@ -1,6 +1,7 @@
 //! A rendered picture on the host, and its files.
 
-use super::{Behind, RenderError, write_file};
+use super::aov::AovPixels;
+use super::{Behind, RenderError, exr, write_file};
 use glam::Vec4;
 use std::path::Path;
 
@@ -15,6 +16,8 @@ pub struct Picture {
     pub radiance: Vec<Vec4>,
     /// What stands behind where nothing was drawn.
     pub behind: Behind,
+    /// The layers beside the colour that were asked for.
+    pub aovs: AovPixels,
 }
 
 impl Picture {
@@ -35,7 +38,7 @@ impl Picture {
         self.radiance[y as usize * self.size[0] as usize + x as usize]
     }
 
-    /// The file as bytes: PNG (display colour) or EXR (linear radiance, 32-bit float, background behind it).
+    /// The file as bytes: PNG (display colour) or EXR (linear radiance, 32-bit float, background behind it, and layers).
     ///
     /// # Errors
     /// When the encoder refuses, or `format` is EXR and the radiance was not asked for.
@@ -48,7 +51,7 @@ impl Picture {
                 image::ImageEncoder::write_image(encoder, &self.rgba, width, height, image::ExtendedColorType::Rgba8)
                     .map_err(|error| RenderError::Encode { format: "PNG", problem: error.to_string() })?;
             }
-            PictureFormat::Exr => self.encode_exr(&mut bytes)?,
+            PictureFormat::Exr => bytes = exr::encode(self)?,
         }
         Ok(bytes)
     }
@@ -61,24 +64,6 @@ impl Picture {
         let path = path.as_ref();
         let bytes = self.encode(PictureFormat::of(path)?)?;
         write_file(path, &bytes)
-    }
-
-    fn encode_exr(&self, bytes: &mut Vec<u8>) -> Result<(), RenderError> {
-        use exr::prelude::*;
-        let [width, height] = self.size.map(|side| side as usize);
-        if self.radiance.len() != width * height {
-            return Err(RenderError::Encode { format: "EXR", problem: "the frame kept no linear radiance".to_owned() });
-        }
-        let pixel = |position: Vec2<usize>| {
-            let color = self.radiance[position.1 * width + position.0];
-            let shown = color + self.behind.at(position.0 as u32, position.1 as u32) * (1.0 - color.w);
-            (shown.x, shown.y, shown.z, shown.w)
-        };
-        let image = Image::from_channels((width, height), SpecificChannels::rgba(pixel));
-        image
-            .write()
-            .to_buffered(std::io::Cursor::new(bytes))
-            .map_err(|error| RenderError::Encode { format: "EXR", problem: error.to_string() })
     }
 }
 
@@ -115,6 +100,7 @@ mod tests {
             rgba: vec![1, 2, 3, 255, 4, 5, 6, 255],
             radiance: Vec::new(),
             behind: Behind::Transparent,
+            aovs: AovPixels::default(),
         }
     }
 

@@ -20,6 +20,14 @@ const SET_COUNT: u32 = 4;
 /// Depth is 32-bit float, reversed: 1 at the near plane.
 pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
+/// Share of the ambient light.
+pub const OCCLUSION_FORMAT: vk::Format = vk::Format::R16_SFLOAT;
+
+/// An octahedral normal, and motion beside it.
+pub fn guide_format(motion: bool) -> vk::Format {
+    if motion { vk::Format::R32G32B32A32_SFLOAT } else { vk::Format::R32G32_SFLOAT }
+}
+
 /// What a pipeline does with depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DepthUse {
@@ -233,6 +241,47 @@ impl PipelineSpec {
             color_format: Self::COUNTING_FORMAT,
             ..*self
         }
+    }
+
+    /// The pipeline that draws depth, normal and, where that is wanted, motion of what this one shows, at one sample a
+    /// pixel. `None` for gauze, which mostly shows what lies behind it.
+    pub fn guide(&self, motion: bool) -> Option<Self> {
+        let (file, defines) = self.fragment.split_once('+').unwrap_or((&self.fragment, ""));
+        let has = |define: &str| defines.split('+').any(|given| given == define);
+        let (vertex, fragment) = match file {
+            "gauze.frag" => return None,
+            "fur.frag" => {
+                let defines = [("GUIDE", true), ("MAPS", has("MAPS")), ("MOTION", motion)];
+                (permutation(&self.vertex, &[("MOTION", motion)]), permutation("fur.frag", &defines))
+            }
+            _ => {
+                // Colour matters where it says what is covered.
+                let is_cut = self.constants.iter().any(|(name, value)| *name == "ALPHA_MODE" && *value != 0);
+                let (uv, color) = (is_cut && has("UV"), is_cut && has("COLOR"));
+                let defines = [("UNLIT", has("UNLIT")), ("UV", uv), ("COLOR", color), ("MOTION", motion)];
+                (permutation("standard.vert", &defines), permutation("guide.frag", &defines))
+            }
+        };
+        let stages = [shader(&vertex), shader(&fragment)];
+        let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
+        let at_one_sample = |(name, value): (&'static str, u32)| (name, if name == "SAMPLE_COUNT" { 1 } else { value });
+        let constants = self.constants.iter().filter(|(name, _)| is_known(name)).copied().map(at_one_sample).collect();
+        let (depth, color_format) = (DepthUse::TestAndWrite, guide_format(motion));
+        Some(Self { vertex, fragment, constants, blend: false, depth, samples: 1, color_format, ..*self })
+    }
+
+    /// The pipelines of screen-space occlusion: its slices, and their mean.
+    pub fn screen_occlusion() -> [Self; 2] {
+        ["screen_occlusion.frag", "screen_occlusion_blur.frag"].map(|fragment| Self {
+            vertex: "tonemap.vert".to_owned(),
+            fragment: fragment.to_owned(),
+            constants: Vec::new(),
+            topology: Topology::Triangles,
+            blend: false,
+            depth: DepthUse::None,
+            samples: 1,
+            color_format: OCCLUSION_FORMAT,
+        })
     }
 
     /// The pipeline that composes the lists of what blends over the opaque picture.

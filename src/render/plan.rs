@@ -10,7 +10,7 @@ use super::lit::Lit;
 use super::map::{Map, StandIn, fur_maps, surface_maps};
 use super::options::{FrameOptions, ShellSubmission};
 use super::pipeline::{ComputeSpec, PipelineSpec, shader};
-use super::stream::{Stream, inputs};
+use super::stream::{Moment, Stream, inputs};
 use super::table::Table;
 use super::targets::Attachment;
 use crate::asset::{Asset, Primitive, Sampler, Topology};
@@ -79,6 +79,8 @@ pub struct Deform {
     pub instance: usize,
     /// Stream.
     pub stream: Stream,
+    /// In this frame's pose or in the previous one's.
+    pub moment: Moment,
     /// Index into [`Plan::compute_pipelines`].
     pub pipeline: usize,
 }
@@ -99,6 +101,12 @@ pub enum Pass {
     Deform,
     /// Strands that lag behind their roots.
     Sway,
+    /// Depth, normal and motion.
+    Guide,
+    /// Ambient occlusion of a few slices a pixel.
+    ScreenOcclusion,
+    /// Their mean.
+    ScreenOcclusionBlur,
     /// Opaque and masked surfaces; always there, since it clears the targets.
     Opaque,
     /// Shells.
@@ -113,14 +121,27 @@ pub enum Pass {
 
 impl Pass {
     /// All, in their order.
-    pub const ALL: [Self; 7] =
-        [Self::Deform, Self::Sway, Self::Opaque, Self::Fur, Self::Transparent, Self::Transparency, Self::Tonemap];
+    pub const ALL: [Self; 10] = [
+        Self::Deform,
+        Self::Sway,
+        Self::Guide,
+        Self::ScreenOcclusion,
+        Self::ScreenOcclusionBlur,
+        Self::Opaque,
+        Self::Fur,
+        Self::Transparent,
+        Self::Transparency,
+        Self::Tonemap,
+    ];
 
     /// Name in labels, timings and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Deform => "deform",
             Self::Sway => "sway",
+            Self::Guide => "guide",
+            Self::ScreenOcclusion => "screen occlusion",
+            Self::ScreenOcclusionBlur => "screen occlusion blur",
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
@@ -149,6 +170,8 @@ pub struct Plan {
     pub deforms: Vec<Deform>,
     /// Coats whose strands lag behind.
     pub sways: Vec<Sway>,
+    /// Draws of the guide pass.
+    pub guide: Vec<Draw>,
     /// Draws of the opaque pass.
     pub opaque: Vec<Draw>,
     /// Draws of the fur pass.
@@ -185,6 +208,9 @@ impl Plan {
         if options.everything {
             plan.add_spare_pipelines(scene, options);
         }
+        if options.has_guide() {
+            plan.add_guide(scene, options);
+        }
         plan.add_passes(options);
         plan.left_out = left_out(&plan, scene, options);
         plan
@@ -220,7 +246,8 @@ impl Plan {
         }
     }
 
-    fn add_draw(&mut self, scene: &Scene, index: usize, spec: PipelineSpec, kind: DrawKind, options: &FrameOptions) {
+    /// The streams that a pipeline reads of an instance, and those of them that a pass moves.
+    fn add_streams(&mut self, scene: &Scene, index: usize, spec: &PipelineSpec, options: &FrameOptions) {
         let instance = &self.instances[index];
         let geometry = &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
         let skin = instance.skin.is_some() && geometry.vertices.influences_per_vertex > 0;
@@ -235,13 +262,34 @@ impl Plan {
                 continue;
             }
             streams.insert(input.stream);
-            let Some(kind) = input.stream.deform_kind().filter(|_| !input.rest && moved) else { continue };
-            if self.deforms.iter().any(|deform| deform.instance == index && deform.stream == input.stream) {
+            let is_moved = moved && input.moment != Moment::Rest;
+            let Some(kind) = input.stream.deform_kind().filter(|_| is_moved) else { continue };
+            let same = |deform: &Deform| {
+                (deform.instance, deform.stream, deform.moment) == (index, input.stream, input.moment)
+            };
+            if self.deforms.iter().any(same) {
                 continue;
             }
             let pipeline = index_of(&mut self.compute_pipelines, ComputeSpec::deform(skin, morph || !skin, kind));
-            self.deforms.push(Deform { instance: index, stream: input.stream, pipeline });
+            self.deforms.push(Deform { instance: index, stream: input.stream, moment: input.moment, pipeline });
         }
+    }
+
+    /// What is drawn, once more for its depth, normal and motion.
+    fn add_guide(&mut self, scene: &Scene, options: &FrameOptions) {
+        for draw in [&self.opaque[..], &self.fur, &self.transparent].concat() {
+            let Some(spec) = self.pipelines[draw.pipeline].guide(options.aovs.motion) else { continue };
+            self.add_streams(scene, draw.instance, &spec, options);
+            let pipeline = index_of(&mut self.pipelines, spec);
+            self.guide.push(Draw { pipeline, ..draw });
+        }
+        self.guide.sort_by_key(|draw| draw.pipeline);
+    }
+
+    fn add_draw(&mut self, scene: &Scene, index: usize, spec: PipelineSpec, kind: DrawKind, options: &FrameOptions) {
+        self.add_streams(scene, index, &spec, options);
+        let instance = &self.instances[index];
+        let geometry = &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
         let list = match kind {
             _ if spec.blend => &mut self.transparent,
             DrawKind::Surface(_) => &mut self.opaque,
@@ -348,6 +396,9 @@ impl Plan {
         for (pass, wanted) in [
             (Pass::Deform, !self.deforms.is_empty()),
             (Pass::Sway, !self.sways.is_empty()),
+            (Pass::Guide, options.has_guide()),
+            (Pass::ScreenOcclusion, options.screen_occlusion.is_some()),
+            (Pass::ScreenOcclusionBlur, options.screen_occlusion.is_some()),
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),

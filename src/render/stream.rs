@@ -35,8 +35,19 @@ pub struct Input {
     pub location: u32,
     /// Source.
     pub stream: Stream,
-    /// The rest pose is wanted even where the deform pass moves the stream.
-    pub rest: bool,
+    /// Of which pose, where the deform pass moves the stream.
+    pub moment: Moment,
+}
+
+/// When a stream's values are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Moment {
+    /// In this frame.
+    Frame,
+    /// In the rest pose.
+    Rest,
+    /// In the previous frame.
+    Previous,
 }
 
 impl Stream {
@@ -71,26 +82,29 @@ impl Stream {
 /// On a name that no stream has; a test walks every vertex shader.
 pub fn inputs(vertex: &Shader) -> Vec<Input> {
     let source = |name: &str| match name {
-        "position" => (Stream::Position, false),
-        "normal" => (Stream::Normal, false),
-        "tangent" => (Stream::Tangent, false),
-        "uv_0" => (Stream::Uv0, false),
-        "uv_1" => (Stream::Uv1, false),
-        "color" => (Stream::Color, false),
-        "shell_direction" => (Stream::ShellDirection, false),
-        "shell_side" => (Stream::ShellSide, false),
-        "sway" => (Stream::Sway, false),
-        "rest_normal" => (Stream::Normal, true),
-        "rest_position" => (Stream::Position, true),
-        "rest_direction" => (Stream::ShellDirection, true),
+        "position" => (Stream::Position, Moment::Frame),
+        "normal" => (Stream::Normal, Moment::Frame),
+        "tangent" => (Stream::Tangent, Moment::Frame),
+        "uv_0" => (Stream::Uv0, Moment::Frame),
+        "uv_1" => (Stream::Uv1, Moment::Frame),
+        "color" => (Stream::Color, Moment::Frame),
+        "shell_direction" => (Stream::ShellDirection, Moment::Frame),
+        "shell_side" => (Stream::ShellSide, Moment::Frame),
+        "sway" => (Stream::Sway, Moment::Frame),
+        "rest_normal" => (Stream::Normal, Moment::Rest),
+        "rest_position" => (Stream::Position, Moment::Rest),
+        "rest_direction" => (Stream::ShellDirection, Moment::Rest),
+        "previous_position" => (Stream::Position, Moment::Previous),
+        "previous_direction" => (Stream::ShellDirection, Moment::Previous),
+        "previous_side" => (Stream::ShellSide, Moment::Previous),
         other => panic!("no vertex stream is named {other}"),
     };
     vertex
         .inputs
         .iter()
         .map(|input| {
-            let (stream, rest) = source(input.name);
-            Input { location: input.location, stream, rest }
+            let (stream, moment) = source(input.name);
+            Input { location: input.location, stream, moment }
         })
         .collect()
 }

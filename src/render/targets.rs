@@ -1,7 +1,7 @@
 //! The images that a frame draws into.
 
 use super::options::FrameOptions;
-use super::pipeline::DEPTH_FORMAT;
+use super::pipeline::{DEPTH_FORMAT, OCCLUSION_FORMAT, guide_format};
 use crate::gpu::{Gpu, GpuError, Image, ImageDesc, format_bytes};
 use ash::vk;
 
@@ -46,7 +46,27 @@ impl Attachment {
         [Some(Self::color(options, lists)), Self::resolved(options, lists), Some(Self::depth(options, lists))]
             .into_iter()
             .flatten()
+            .chain([Self::guide(options), Self::occlusion(options)].into_iter().flatten().flatten())
             .collect()
+    }
+
+    /// Normal, motion and depth of what is nearest.
+    fn guide(options: &FrameOptions) -> Option<[Self; 2]> {
+        let sampled = vk::ImageUsageFlags::SAMPLED;
+        let [color, depth] = [vk::ImageUsageFlags::COLOR_ATTACHMENT, vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT];
+        let format = guide_format(options.aovs.motion);
+        options.has_guide().then_some([
+            Self { name: "guide", format, samples: 1, usage: color | sampled },
+            Self { name: "guide depth", format: DEPTH_FORMAT, samples: 1, usage: depth | sampled },
+        ])
+    }
+
+    /// Screen-space occlusion before and after its blur.
+    fn occlusion(options: &FrameOptions) -> Option<[Self; 2]> {
+        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let named = |name| Self { name, format: OCCLUSION_FORMAT, samples: 1, usage };
+        let wanted = options.screen_occlusion.is_some() || options.everything;
+        wanted.then_some(["screen occlusion slices", "screen occlusion"].map(named))
     }
 
     /// Bytes of all samples at a picture of `size` pixels, without what the device adds.
@@ -69,6 +89,26 @@ pub struct Targets {
     pub resolved: Option<Image>,
     /// Reversed depth.
     pub depth: Image,
+    /// Where layers or screen-space occlusion ask for them.
+    pub guide: Option<GuideTargets>,
+    /// Where there is screen-space occlusion.
+    pub occlusion: Option<OcclusionTargets>,
+}
+
+/// What is nearest, one sample a pixel.
+pub struct GuideTargets {
+    /// xy: unit normal in world space, octahedral; zw: motion, pixels, where it is asked for.
+    pub texels: Image,
+    /// Reversed depth, 0 where nothing is.
+    pub depth: Image,
+}
+
+/// Share of the ambient light, one sample a pixel.
+pub struct OcclusionTargets {
+    /// Of a pixel's own slices.
+    pub slices: Image,
+    /// Of those of its surroundings.
+    pub visibility: Image,
 }
 
 impl Targets {
@@ -84,6 +124,19 @@ impl Targets {
             color: Attachment::color(options, lists).create(gpu, size)?,
             resolved: resolved.map(|resolved| resolved.create(gpu, size)).transpose()?,
             depth: Attachment::depth(options, lists).create(gpu, size)?,
+            guide: match Attachment::guide(options) {
+                Some([texels, depth]) => {
+                    Some(GuideTargets { texels: texels.create(gpu, size)?, depth: depth.create(gpu, size)? })
+                }
+                None => None,
+            },
+            occlusion: match Attachment::occlusion(options) {
+                Some([slices, visibility]) => Some(OcclusionTargets {
+                    slices: slices.create(gpu, size)?,
+                    visibility: visibility.create(gpu, size)?,
+                }),
+                None => None,
+            },
         })
     }
 

@@ -142,3 +142,40 @@ fn more_samples_change_edges_alone() {
         assert!(inside > 500 && partial > 50, "{inside} inside, {partial} on edges");
     });
 }
+
+#[test]
+fn an_edge_shows_its_share_and_does_not_glow() {
+    // Far beyond white: were the curve to bend what is covered in part, a quarter of it would be white, too.
+    let bright = Vec3::new(12.0, 6.0, 3.0);
+    let mut stage = Stage::front(1.0);
+    let material = stage.material(unlit(bright.extend(1.0)));
+    let rotation = Quat::from_rotation_z(0.2);
+    stage.object(quad(0.8, 0.6), material, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
+    let scene = stage.scene();
+    headless(|device| {
+        for tonemap in [Tonemap::None, Tonemap::Aces, Tonemap::Agx, Tonemap::Neutral] {
+            let frame = FrameOptions { tonemap, ..options([64, 64], 4) };
+            let shown = curve(tonemap, bright.as_dvec3());
+            let [clear, black] = [Background::Transparent, Background::Color(Vec3::ZERO)]
+                .map(|background| device.picture(&scene, &FrameOptions { background, ..frame.clone() }));
+            let mut partial = 0;
+            for index in 0..clear.radiance.len() {
+                let share = clear.radiance[index].w;
+                partial += usize::from(share > 0.0 && share < 1.0);
+                // Linear light is premultiplied, bit for bit: quarters of whole numbers.
+                assert_eq!(clear.radiance[index], (bright * share).extend(share));
+                let bytes = |picture: &vair::render::Picture| [0, 1, 2, 3].map(|at| picture.rgba[index * 4 + at]);
+                let (clear, black) = (bytes(&clear), bytes(&black));
+                let near = |byte: u8, linear: f64| (f64::from(byte) - 255.0 * srgb_from_linear(linear)).abs() <= 1.0;
+                for channel in 0..3 {
+                    // The file's colour is straight: at every share that of the whole.
+                    assert!(share == 0.0 || near(clear[channel], shown[channel]), "{tonemap:?}: {clear:?} at {share}");
+                    let mixed = f64::from(share) * shown[channel];
+                    assert!(near(black[channel], mixed), "{tonemap:?}: {black:?} at {share}");
+                }
+                assert_eq!((clear[3], black[3]), ((share * 255.0).round() as u8, 255));
+            }
+            assert!(partial > 50, "only {partial} pixels on edges");
+        }
+    });
+}

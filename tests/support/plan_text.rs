@@ -22,7 +22,9 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
         let morphs = instance.morph_weights.len();
         line(format!("  mesh {mesh}.{primitive}, {material:?}{mirrored}{skinned}, {morphs} morph targets"));
     }
-    for (name, draws) in [("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)] {
+    for (name, draws) in
+        [("guide", &plan.guide), ("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)]
+    {
         line(format!("{name} draws: {}", draws.len()));
         for Draw { instance, pipeline, kind, faces } in draws {
             line(format!("  instance {instance}, pipeline {pipeline}, {kind:?}, {faces:?}"));

@@ -1,4 +1,4 @@
-//! The draws of the opaque, fur and transparent passes: surfaces and shells.
+//! The draws of the guide, opaque, fur and transparent passes: surfaces and shells.
 //!
 //! In: vertex streams, materials, frame data. Out: linear HDR colour (premultiplied alpha) and reversed depth.
 //! Shells are one instanced draw a primitive: the layer comes from the instance index, outermost first. To measure
@@ -39,7 +39,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         };
         pass.bind(1, material);
         for input in &vertex_inputs {
-            let moved = motion.streams.get(&(draw.instance, input.stream)).filter(|_| !input.rest);
+            let moved = motion.streams.get(&(draw.instance, input.stream, input.moment));
             match (moved.or_else(|| resources.streams.get(&(index, input.stream))), resources.absent()) {
                 (Some(stream), _) => pass.vertices(input.location, stream, 0, u64::from(input.stream.stride())),
                 (None, Some(absent)) => pass.vertices(input.location, absent, input.stream.absent_offset(), 0),

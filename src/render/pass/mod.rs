@@ -2,7 +2,9 @@
 
 pub mod deform;
 pub mod draws;
+pub mod guide;
 pub mod order;
+pub mod screen_occlusion;
 pub mod sway;
 pub mod tonemap;
 pub mod transparency;

@@ -15,12 +15,14 @@ mod gauze;
 mod ggx;
 mod glint;
 mod hash;
+mod horizon;
 mod hsv;
 mod laser;
 mod layered;
 mod light;
 mod lock;
 mod occlusion;
+mod octahedral;
 mod satin;
 mod sheen;
 mod standard;
@@ -50,12 +52,14 @@ const FILES: &[&[Twin]] = &[
     ggx::TWINS,
     glint::TWINS,
     hash::TWINS,
+    horizon::TWINS,
     hsv::TWINS,
     laser::TWINS,
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
     occlusion::TWINS,
+    octahedral::TWINS,
     satin::TWINS,
     sheen::TWINS,
     standard::TWINS,
