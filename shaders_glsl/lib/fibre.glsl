@@ -138,10 +138,16 @@ vec3 fibre_transmittance(vec3 color) {
     return exp(-1.85 * root * root);
 }
 
-// Light that comes through a coat of that optical depth from fibre to fibre: of what they intercept, half goes on ahead,
-// in their colour (the forward half of Zinke et al. 2008).
+// Diffuse light that a coat of that optical depth leaves. The depth is what a white coat shows, light that fibres pass on to
+// each other included; dark fibres pass on less of what they intercept, so that colours deepen towards the root.
 vec3 fibre_passed_on(vec3 color, float depth) {
-    return exp(-depth * (1.0 - 0.5 * color));
+    return exp(-depth * (1.5 - 0.5 * color));
+}
+
+// Light that went straight on: of what fibres intercept, half goes ahead, each time attenuated by one way through (the
+// forward half of Zinke et al. 2008).
+vec3 fibre_ahead(vec3 transmittance, float depth) {
+    return transmittance * exp(-depth * (1.0 - 0.5 * transmittance));
 }
 
 // Diffuse kernel, per steradian: light around the coat's normal, wrapped, and around the strands' tangent. Its integral over
@@ -170,16 +176,17 @@ vec3 fibre_scattering(Fibre fibre, vec3 color, vec3 to_light, float depth) {
         * fibre_along(fibre.sine, fibre.cosine, fibre.variance, light_sine, light_cosine);
     vec3 once = fibre_transmittance(color);
     vec3 diffuse = color * (fibre_rest(fibre, 1.0) * fibre_diffuse(fibre, to_light, light_cosine));
-    return exp(-depth) * (lobes.x + lobes.y * once * once) + fibre_passed_on(color, depth) * (lobes.z * once + diffuse);
+    return exp(-depth) * (lobes.x + lobes.y * once * once) + lobes.z * fibre_ahead(once, depth)
+        + fibre_passed_on(color, depth) * diffuse;
 }
 
 // The same for surroundings: mean radiance that the diffuse part, the transmitted lobe and the two highlights see; through a
 // coat of that optical depth, on average over all directions.
-vec3 fibre_surroundings(Fibre fibre, vec3 color, vec3 diffuse, vec3 ahead, vec3 mirrored, float depth) {
+vec3 fibre_surroundings(Fibre fibre, vec3 color, vec3 diffuse, vec3 behind, vec3 mirrored, float depth) {
     vec3 lobes = fibre.share * fibre.seen;
     vec3 once = fibre_transmittance(color);
-    vec3 passed_on = lobes.z * once * ahead + fibre_rest(fibre, 0.0) * color * diffuse;
-    return exp(-depth) * (lobes.x + lobes.y * once * once) * mirrored + fibre_passed_on(color, depth) * passed_on;
+    return exp(-depth) * (lobes.x + lobes.y * once * once) * mirrored + lobes.z * fibre_ahead(once, depth) * behind
+        + fibre_passed_on(color, depth) * (fibre_rest(fibre, 0.0) * color * diffuse);
 }
 
 #endif

@@ -27,11 +27,11 @@ vec3 environment_mean(vec3 direction_in_world, vec3 bands) {
 // spreads reflections by a variance of 2 alpha^2, and the mean of one and four times the variance is about twice it.
 vec3 fur_surroundings(Fibre fibre, vec3 color, vec3 to_eye, float depth) {
     vec3 diffuse = environment_mean(fibre.normal, FUR_DIFFUSE_BANDS);
-    vec3 ahead = environment_mean(-to_eye, FUR_AHEAD_BANDS);
+    vec3 behind = environment_mean(-to_eye, FUR_AHEAD_BANDS);
     vec3 mirror = (fibre.sine.x + fibre.sine.y) * fibre.tangent + (fibre.cosine.x + fibre.cosine.y) * fibre.across;
     float roughness = min(sqrt(sqrt(fibre.variance.x)), 1.0);
     vec3 mirrored = environment_radiance(mirror, roughness);
-    return fibre_surroundings(fibre, color, diffuse, ahead, mirrored, depth);
+    return fibre_surroundings(fibre, color, diffuse, behind, mirrored, depth);
 }
 
 #endif

@@ -30,9 +30,12 @@ float screen_occlusion() {
     return 1.0;
 }
 
+// By which a material turns the environment that it sees, beside the frame's turn: cosine and sine.
+vec2 own_environment_turn = vec2(1.0, 0.0);
+
 // From the world's axes to the environment's.
 vec3 environment_direction(vec3 w) {
-    return environment_from_world(w, frame.environment_turn);
+    return environment_from_world(environment_from_world(w, own_environment_turn), frame.environment_turn);
 }
 
 // Mean radiance around a direction, weighted by the cosine: what a white Lambert surface that faces it shows. Source:

@@ -38,7 +38,7 @@ crate::parameters! {
         thickness: f32 as Number = 0.0, (0.0, 1e6), "mesh units", "Thickness of the body behind a front side, through which what goes straight through is absorbed; 0 is a thin wall.";
         thickness_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: G is the local thickness.";
         attenuation_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Linear colour that the body leaves of white light after attenuation_distance.";
-        attenuation_distance: f32 as Number = 1.0, (1e-6, 3.4e38), "m", "Way after which the body has that colour.";
+        attenuation_distance: f32 as Number = 1.0, (1e-6, 1e6), "m", "Way after which the body has that colour.";
         sheen_color: Vec3 as Rgb = Vec3::ZERO, UNIT, "", "Linear colour of the fuzz on the surface; black has none.";
         sheen_color_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Local colour of the fuzz, sRGB-decoded.";
         sheen_roughness: f32 as Number = 0.0, UNIT, "", "How unruly the fuzz is: low shines at the rim alone, high all over.";

@@ -142,6 +142,9 @@ fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str) ->
             "the mesh has no coordinates for the map, or nothing lights it"
         }
         (Some(_), _) => "no material has such a map",
+        (_, "TransparencyCount" | "TransparencyHeads" | "TransparencyEntries") => {
+            "nothing that it draws blends, or what does is sorted by objects"
+        }
         (_, "LightList") => "nothing that is drawn is lit",
         (_, "JointList" | "InfluenceList" | "InfluenceWeightList") => "nothing is skinned",
         (_, "MorphDeltas" | "MorphWeights") => "nothing is morphed",

@@ -43,6 +43,7 @@ pub fn height_coat() -> Fur {
         color_variation: 0.0,
         force_strength: 0.0,
         specular: 0.0,
+        transmission: 0.0,
         ..Fur::default()
     }
 }

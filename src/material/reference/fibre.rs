@@ -57,23 +57,32 @@ pub fn variance(roughness: f64) -> f64 {
     (0.726 * b + 0.812 * b * b + 3.7 * b.powi(20)).powi(2)
 }
 
-/// I0(x) exp(-x) for x >= 0, by its series, or far out by its asymptotic one, which is good to 1e-10 there.
+/// Coefficients of I0(x) in powers of (x / 2)^2: 1 / k!^2.
+const NEAR: [f64; 40] = {
+    let mut series = [1.0; 40];
+    let mut k = 1;
+    while k < series.len() {
+        series[k] = series[k - 1] / (k * k) as f64;
+        k += 1;
+    }
+    series
+};
+
+/// Coefficients of I0(x) exp(-x) sqrt(2 pi x) in powers of 1 / x.
+const FAR: [f64; 14] = {
+    let mut series = [1.0; 14];
+    let mut k = 1;
+    while k < series.len() {
+        series[k] = series[k - 1] * ((2 * k - 1) * (2 * k - 1)) as f64 / (8 * k) as f64;
+        k += 1;
+    }
+    series
+};
+
+/// I0(x) exp(-x) for x >= 0, by its series, or from 12 by its asymptotic one, which is good to 1e-10 there.
 pub fn bessel(x: f64) -> f64 {
-    let (mut term, mut sum) = (1.0, 1.0);
-    if x < 12.0 {
-        let mut k = 1.0;
-        while term > 1e-17 * sum {
-            term *= (0.5 * x / k).powi(2);
-            sum += term;
-            k += 1.0;
-        }
-        return sum * (-x).exp();
-    }
-    for k in 1..14 {
-        term *= f64::from(2 * k - 1).powi(2) / (f64::from(8 * k) * x);
-        sum += term;
-    }
-    sum / (2.0 * PI * x).sqrt()
+    let sum = |series: &[f64], power: f64| series.iter().rev().fold(0.0, |sum, term| sum * power + term);
+    if x < 12.0 { sum(&NEAR, 0.25 * x * x) * (-x).exp() } else { sum(&FAR, 1.0 / x) / (2.0 * PI * x).sqrt() }
 }
 
 /// Longitudinal lobe; its integral over the light's sine is 1.
@@ -119,9 +128,14 @@ pub fn seen_of_lobes(sine: DVec3, variance: DVec3, facing: f64, aside: f64) -> [
     [0, 1, 2].map(|lobe| seen(&KINDS[lobe], sine[lobe], variance[lobe], facing, aside))
 }
 
-/// Light that comes through a coat of that optical depth from fibre to fibre.
+/// Diffuse light that a coat of that optical depth leaves.
 pub fn passed_on(color: f64, depth: f64) -> f64 {
-    (-depth * (1.0 - 0.5 * color)).exp()
+    (-depth * (1.5 - 0.5 * color)).exp()
+}
+
+/// Light that went straight on through a coat of that optical depth, and through one fibre.
+pub fn ahead(transmittance: f64, depth: f64) -> f64 {
+    transmittance * (-depth * (1.0 - 0.5 * transmittance)).exp()
 }
 
 /// What one way through a fibre leaves of light, for a coat of that colour (Chiang et al. 2016, equation 9).
@@ -183,14 +197,17 @@ impl Fibre {
         let [reflected, returned, transmitted] = self.lobes(to_light);
         let once = transmittance(color);
         let diffuse = color * self.rest(1.0) * self.diffuse(to_light, self.tangent.cross(to_light).length());
-        (-depth).exp() * (reflected + returned * once * once) + passed_on(color, depth) * (transmitted * once + diffuse)
+        (-depth).exp() * (reflected + returned * once * once)
+            + transmitted * ahead(once, depth)
+            + passed_on(color, depth) * diffuse
     }
 
     /// The same for surroundings, of which the diffuse part, the transmitted lobe and the highlights see those means.
-    pub fn surroundings(&self, color: f64, diffuse: f64, ahead: f64, mirrored: f64, depth: f64) -> f64 {
+    pub fn surroundings(&self, color: f64, diffuse: f64, behind: f64, mirrored: f64, depth: f64) -> f64 {
         let [reflected, returned, transmitted] = self.lobes.map(|lobe| lobe.share * lobe.seen);
         let once = transmittance(color);
         (-depth).exp() * (reflected + returned * once * once) * mirrored
-            + passed_on(color, depth) * (transmitted * once * ahead + self.rest(0.0) * color * diffuse)
+            + transmitted * ahead(once, depth) * behind
+            + passed_on(color, depth) * self.rest(0.0) * color * diffuse
     }
 }

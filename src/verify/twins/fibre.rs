@@ -41,13 +41,11 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("fibre_bessel", &[Domain::Log(1e-4, 1e7, &[0.0, 1e-40, 3.75, 1e7])], |given| {
         of_colors(given.vec3(), fibre::bessel)
     }),
-    // A narrow lobe's exponent, up to 88 where it counts, moves with the last digits of the sines.
     Twin::new("fibre_along", &[SINE, UNIT, ANY_VARIANCE, SINE, UNIT], |given| {
         let (sine, cosine, variance) = (given.vec3(), given.vec3(), given.vec3());
         let (light_sine, light_cosine) = (given.number(), given.number());
         [0, 1, 2].map(|at| fibre::along(sine[at], cosine[at], variance[at], light_sine, light_cosine)).to_vec()
-    })
-    .rule(Rule::Conditioned(4)),
+    }),
     Twin::new(
         "fibre_around",
         &[Domain::DirectionOrZero, Domain::Uniform(-0.6, 0.6, &[-0.5, 0.0, 1e-40, 0.5])],
@@ -88,6 +86,10 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("fibre_passed_on", &[UNIT, DEPTH], |given| {
         let (color, depth) = (given.vec3(), given.number());
         of_colors(color, |color| fibre::passed_on(color, depth))
+    }),
+    Twin::new("fibre_ahead", &[UNIT, DEPTH], |given| {
+        let (transmittance, depth) = (given.vec3(), given.number());
+        of_colors(transmittance, |transmittance| fibre::ahead(transmittance, depth))
     }),
     Twin::new(
         "fibre_diffuse",
