@@ -33,7 +33,7 @@ const LIGHTS: [SoftBox; 5] = [
         radiance: Vec3::new(0.62, 0.65, 0.70),
     },
     SoftBox {
-        direction: Vec3::new(-0.80, 0.18, -0.58),
+        direction: Vec3::new(-0.97, 0.18, -0.24),
         half: [0.10, 0.75],
         edge: 0.05,
         radiance: Vec3::new(5.2, 5.5, 6.0),
