@@ -78,6 +78,10 @@
 //! within the slab and find the strand that it meets, and where. So a handful of shells shows what infinitely many
 //! would; `vair report` says how nearly and at which cost, beside the ways of other renderers ([`render::Shells`]).
 //!
+//! A strand reflects light, lets it through and returns it, in three normalised lobes about its tangent; the rest goes from
+//! strand to strand and is diffuse, so that a white coat in white surroundings is white. Along the light the coat counts by
+//! its optical depth, along the view by the shells that are drawn, and by nothing else.
+//!
 //! # Cloth
 //! A family of cloth ([`material::Cloth`]) takes the place of the standard surface's lobes and keeps its maps and
 //! parameters. It is one stem throughout: `satin` is a file of parameters in [`material`], a uniform block in
@@ -100,7 +104,9 @@
 //!
 //! # Sources
 //! Shells: Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". Strands: Marschner et al. 2003, "Light
-//! Scattering from Human Hair Fibers". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction through Rough
+//! Scattering from Human Hair Fibers"; d'Eon et al. 2011, "An Energy-Conserving Hair Reflectance Model"; Chiang et al. 2016,
+//! "A Practical and Controllable Hair and Fur Model for Production Path Tracing"; Zinke et al. 2008, "Dual Scattering
+//! Approximation for Fast Multiple Scattering in Hair". Surfaces: Walter et al. 2007, "Microfacet Models for Refraction through Rough
 //! Surfaces"; Turquin 2019, "Practical multiple scattering compensation for microfacet models". Files: Khronos 2021,
 //! "glTF 2.0 Specification". Sheen: Zeltner, Burley & Chiang 2022, "Practical Multiple-Scattering Sheen Using Linearly
 //! Transformed Cosines". Films: Belcour & Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of
