@@ -158,8 +158,9 @@ fn anisotropic_lobes() {
 fn fuzz() {
     let table = SheenTable::shipped();
     for sheet in [Sheen::Volume, Sheen::Charlie, Sheen::Inverted] {
-        let views =
-            || [0.3, 0.6, 1.0].into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 0.99].map(|mu| (rough, direction(mu, 0.0))));
+        let views = || {
+            [0.3, 0.6, 1.0].into_iter().flat_map(|rough| [0.1, 0.3, 0.6, 0.99].map(|mu| (rough, direction(mu, 0.0))))
+        };
         let lobe = |roughness| Lobe { table: &table, sheet, roughness };
         let of = |(rough, v): (f64, DVec3)| {
             error(&fuzz_lobe(&lobe(rough), v), &by_entry(v, environment::sheen_entry(&lobe(rough), v.z)))

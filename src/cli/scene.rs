@@ -75,8 +75,14 @@ pub struct SceneArguments {
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     ssao: Switch,
     /// Layers beside the colour, in the same .exr: depth (metres along the view direction, 1e10 where nothing is), normal
-    /// (world space), motion (pixels since the frame before, at --fps; x to the right, y down).
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "depth,normal,motion", hide_possible_values = true)]
+    /// (world space), motion (pixels since the frame before, at --fps; x to the right, y down), occlusion (of --ssao on).
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "depth,normal,motion,occlusion",
+        hide_possible_values = true
+    )]
     aov: Vec<AovChoice>,
     /// Format of the linear colour target.
     #[arg(long, value_enum, default_value_t = HdrChoice::Rgba16f)]
@@ -116,6 +122,7 @@ enum AovChoice {
     Depth,
     Normal,
     Motion,
+    Occlusion,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -148,7 +155,12 @@ impl SceneArguments {
     /// Layers beside the colour.
     pub fn aovs(&self) -> Aovs {
         let has = |choice| self.aov.contains(&choice);
-        Aovs { depth: has(AovChoice::Depth), normal: has(AovChoice::Normal), motion: has(AovChoice::Motion) }
+        Aovs {
+            depth: has(AovChoice::Depth),
+            normal: has(AovChoice::Normal),
+            motion: has(AovChoice::Motion),
+            occlusion: has(AovChoice::Occlusion),
+        }
     }
 
     /// No file is named.

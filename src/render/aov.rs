@@ -2,7 +2,7 @@
 //! denoising and motion blur.
 
 use super::occlusion::depth_m;
-use super::targets::GuideTargets;
+use super::targets::{GuideTargets, OcclusionTargets};
 use super::{FrameOptions, RenderError};
 use crate::gpu::Gpu;
 use crate::material::reference::octahedral;
@@ -22,12 +22,14 @@ pub struct Aovs {
     pub normal: bool,
     /// Way on the picture since [`FrameOptions::previous_time_s`](super::FrameOptions::previous_time_s).
     pub motion: bool,
+    /// Screen-space occlusion, where the frame has it.
+    pub occlusion: bool,
 }
 
 impl Aovs {
     /// Whether there are any.
     pub fn any(self) -> bool {
-        self.depth || self.normal || self.motion
+        self.depth || self.normal || self.motion || self.occlusion
     }
 }
 
@@ -40,6 +42,8 @@ pub struct AovPixels {
     pub normal_in_world: Vec<Vec3>,
     /// Pixels from where it was in the previous frame to where it is, x to the right, y down; zero where nothing is.
     pub motion_px: Vec<Vec2>,
+    /// Share of the ambient light that what stands around lets through, in [0, 1]; 1 where nothing is.
+    pub occlusion: Vec<f32>,
 }
 
 /// Depth of nothing, metres: finite, so that filters make no NaN of it, and beyond any scene, as Blender writes it.
@@ -50,10 +54,11 @@ impl AovPixels {
     pub(super) fn read(
         gpu: &Gpu,
         guide: &GuideTargets,
+        occlusion: Option<&OcclusionTargets>,
         camera: &Camera,
         options: &FrameOptions,
     ) -> Result<Self, RenderError> {
-        let Aovs { depth, normal, motion } = options.aovs;
+        let Aovs { depth, normal, motion, occlusion: has_occlusion } = options.aovs;
         let depths: Vec<f32> = bytemuck::pod_collect_to_vec(&gpu.read_image(&guide.depth)?);
         let mut pixels = Self::default();
         if normal || motion {
@@ -78,12 +83,17 @@ impl AovPixels {
             };
             pixels.depth_m = depths.iter().map(metres).collect();
         }
+        if let Some(occlusion) = occlusion.filter(|_| has_occlusion && options.screen_occlusion.is_some()) {
+            let halves = gpu.read_image(&occlusion.visibility)?;
+            let share = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+            pixels.occlusion = halves.chunks_exact(2).map(share).collect();
+        }
         Ok(pixels)
     }
 
     /// Channels of an EXR file: name and values.
     pub fn channels(&self) -> Vec<(&'static str, Vec<f32>)> {
-        let Self { depth_m, normal_in_world, motion_px } = self;
+        let Self { depth_m, normal_in_world, motion_px, occlusion } = self;
         let normal = |axis: usize| normal_in_world.iter().map(|normal| normal[axis]).collect();
         let motion = |axis: usize| motion_px.iter().map(|motion| motion[axis]).collect();
         let all = [
@@ -93,6 +103,7 @@ impl AovPixels {
             ("normal.Z", normal(2)),
             ("motion.X", motion(0)),
             ("motion.Y", motion(1)),
+            ("occlusion.V", occlusion.clone()),
         ];
         all.into_iter().filter(|(_, values)| !values.is_empty()).collect()
     }

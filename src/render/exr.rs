@@ -68,13 +68,15 @@ mod tests {
             depth_m: vec![1.0 / 3.0, EMPTY_DEPTH_M],
             normal_in_world: vec![Vec3::new(0.1, -0.2, 0.3), Vec3::ZERO],
             motion_px: vec![Vec2::new(-12.345, 1e-7), Vec2::ZERO],
+            occlusion: vec![0.25, 1.0],
         };
         let channels = read(&encode(&picture(Behind::Transparent, aovs)).unwrap());
         let names: Vec<&str> = channels.iter().map(|(name, _)| name.as_str()).collect();
-        let layers = ["depth.Z", "motion.X", "motion.Y", "normal.X", "normal.Y", "normal.Z"];
+        let layers = ["depth.Z", "motion.X", "motion.Y", "normal.X", "normal.Y", "normal.Z", "occlusion.V"];
         assert_eq!(names, [&["A", "B", "G", "R"], &layers[..]].concat());
         assert_eq!(channels[4].1, [1.0 / 3.0, EMPTY_DEPTH_M]);
         assert_eq!([channels[5].1[0], channels[6].1[0]], [-12.345, 1e-7]);
         assert_eq!([channels[7].1[0], channels[8].1[0], channels[9].1[0]], [0.1, -0.2, 0.3]);
+        assert_eq!(channels[10].1, [0.25, 1.0]);
     }
 }

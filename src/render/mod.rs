@@ -307,8 +307,10 @@ impl Renderer {
                 Background::Color(color) => Behind::Color(color),
                 Background::Transparent => Behind::Transparent,
             },
-            aovs: match self.targets.as_ref().and_then(|targets| targets.guide.as_ref()) {
-                Some(guide) if options.aovs.any() => AovPixels::read(&self.gpu, guide, &shot.camera, options)?,
+            aovs: match &self.targets {
+                Some(Targets { guide: Some(guide), occlusion, .. }) if options.aovs.any() => {
+                    AovPixels::read(&self.gpu, guide, occlusion.as_ref(), &shot.camera, options)?
+                }
                 _ => AovPixels::default(),
             },
         };
