@@ -52,7 +52,9 @@ fn white_in_a_furnace_disappears() {
             let mut stage = Stage::front(1.0);
             let mut cloths = Vec::new();
             for (column, roughness) in [0.0, 0.2, 0.5, 1.0].into_iter().enumerate() {
-                for (row, metallic) in [0.0, 1.0].into_iter().enumerate() {
+                // A metal has no base under its fuzz, which alone is not white.
+                let metal = if matches!(cloth, Some(Cloth::Cotton(_) | Cloth::Velvet(_))) { 0.0 } else { 1.0 };
+                for (row, metallic) in [0.0, metal].into_iter().enumerate() {
                     cloths.push(stage.material(Material { base_color: Vec4::ONE, roughness, metallic, ..plain() }));
                     let place = Vec3::new(column as f32 * 0.9 - 1.35, row as f32 - 0.5, 0.0);
                     stage.object(sphere(0.4, 16), *cloths.last().unwrap(), at(place));
@@ -189,7 +191,9 @@ fn a_streak_bends_with_the_tangent_and_is_as_bright_as_its_lobe() {
                     let found = picture.radiance(2, 2).truncate().as_dvec3();
                     let wanted = gathered(&lamp, roughness, 0.8, rotation_deg, tilt_deg);
                     // What the split itself is off by: tests/environment_lobe.rs.
-                    let off = ((found - wanted) / wanted).abs().max_element();
+                    // It errs by a share of the lobe's light wherever the lamp stands, not of what meets the lamp here.
+                    let across = gathered(&lamp, roughness, 0.8, 90.0 - rotation_deg, tilt_deg);
+                    let off = ((found - wanted) / wanted.max(across)).abs().max_element();
                     checks.push((off <= 0.3).then_some(()).ok_or_else(|| {
                         format!("roughness {roughness} tilt {tilt_deg} turn {rotation_deg}: {found} for {wanted}")
                     }));
