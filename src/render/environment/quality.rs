@@ -8,6 +8,8 @@ const FACE_PX: std::ops::RangeInclusive<u32> = 16..=512;
 const LAST_FACE_PX: u32 = 4;
 /// A small environment's cube has at least this side: its levels are also the steps of roughness.
 const LEAST_FACE_PX: u32 = 64;
+/// Directions that a texel looks into at most, unless more are asked for: more no longer show.
+const MOST_SAMPLES: u32 = 4096;
 /// No direction differs: every texel of the one level is the same.
 const CONSTANT_FACE_PX: u32 = 32;
 
@@ -17,8 +19,8 @@ pub struct EnvironmentQuality {
     /// Largest side of the faces of the mirror's level, texels, a power of two in [16, 512]; default 256. Environments of
     /// fewer texels have smaller ones. Six faces with all levels take 64 bytes times its square.
     pub face_px: u32,
-    /// Directions that a texel of the first blurred level looks into, in [1, 1024]; twice as many a level further, where
-    /// a quarter of the texels is left; default 64. Time grows with it.
+    /// Directions that a texel of the first blurred level looks into, in [1, 1024]; four times as many a level further, where
+    /// a quarter of the texels is left, up to 4096; default 64. Time grows with it.
     pub samples: u32,
     /// Nodes of the table of lobes along the cosine and along the roughness, in [8, 64]; default 32.
     pub table_px: u32,
@@ -64,6 +66,6 @@ impl EnvironmentQuality {
 
     /// Directions that a texel of a level looks into.
     pub(super) fn samples_of(&self, level: u32) -> u32 {
-        (self.samples << level.saturating_sub(1).min(10)).min(self.samples.max(1024))
+        (self.samples << (2 * level.saturating_sub(1)).min(10)).min(self.samples.max(MOST_SAMPLES))
     }
 }
