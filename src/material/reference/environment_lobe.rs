@@ -49,11 +49,8 @@ pub fn taps(v: DVec3, alpha: (f64, f64), count: u32, mirror: f64) -> Vec<Tap> {
     let tap = |index| {
         let h = normal(v, alpha, (f64::from(index) + 0.5) / f64::from(count));
         let mirrored = 2.0 * v.dot(h) * h - v;
-        let weight = if mirrored.z > 0.0 {
-            ggx::masking_shadowing_times_cosine(v, mirrored, alpha.0, alpha.1)
-        } else {
-            0.0
-        };
+        let weight =
+            if mirrored.z > 0.0 { ggx::masking_shadowing_times_cosine(v, mirrored, alpha.0, alpha.1) } else { 0.0 };
         Tap { direction: axis(v, h, mirror), weight }
     };
     let taps: Vec<Tap> = (0..count).map(tap).collect();
