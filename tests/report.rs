@@ -137,10 +137,25 @@ fn tiny_report() -> Report {
         }
     })
     .unwrap();
-    assert_eq!(stages, ["references", "errors", "times", "furnace"]);
+    assert_eq!(stages, ["references", "errors", "times", "furnace", "transparency"]);
     let messages = gpu.validation_log().messages();
     assert!(messages.is_empty(), "{messages:?}");
     report
+}
+
+/// Whatever way blends, the compositor in double precision is the judge; per pixel it finds the picture's own sampling
+/// alone.
+fn check_transparency(report: &Report) {
+    let feature = report.features.iter().find(|feature| feature.name == "transparency").unwrap();
+    let relmse = |method: &str, camera: &str, samples: u32| {
+        let mut of_method = feature.points.iter().filter(|point| point.method.starts_with(method));
+        of_method.find(|point| point.camera == camera && point.knob.1 == samples).unwrap().relmse
+    };
+    for samples in [1, 4] {
+        let of_method = |method| relmse(method, "crossed sheets", samples);
+        let [ours, weighted, sorted] = ["per pixel", "weighted", "sorted"].map(of_method);
+        assert!(ours < weighted && ours < sorted, "{samples} samples: {ours} {weighted} {sorted}");
+    }
 }
 
 #[test]
@@ -148,6 +163,7 @@ fn a_tiny_run_writes_every_file() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("report");
     let report = tiny_report();
+    check_transparency(&report);
     report::save(&report, &folder).unwrap();
     // An earlier report gives way.
     report::save(&report, &folder).unwrap();
@@ -168,7 +184,7 @@ fn a_tiny_run_writes_every_file() {
         assert!(page.contains(&svg), "a plot is not on the page");
         plots += 1;
     }
-    assert_eq!(plots, 4, "two cameras and two strands");
+    assert_eq!(plots, 7, "two cameras, two strands, three scenes of what blends");
     assert!(page.contains(&report.device.name) && page.contains(&report.date));
     assert_eq!(page.contains("processor times"), report.is_on_processor());
     for outside in ["src=", "href=", "url(", "@import"] {
@@ -184,7 +200,7 @@ fn read(folder: &Path, name: &str) -> String {
 fn check_json(json: &Value) {
     let features = json["features"].as_array().unwrap();
     let names: Vec<&str> = features.iter().filter_map(|feature| feature["name"].as_str()).collect();
-    assert_eq!(names, ["fur layers", "dynamics"]);
+    assert_eq!(names, ["fur layers", "dynamics", "transparency"]);
     assert!(json["device"]["name"].is_string());
     for feature in features {
         assert!(feature["reference"].is_string() && feature["reference_noise"].is_f64(), "{feature}");
