@@ -6,7 +6,7 @@ use std::process::Stdio;
 #[test]
 fn mistakes_are_status_2_and_one_line() {
     let folder = with_quad();
-    let cases: [(&[&str], &[&str]); 28] = [
+    let cases: [(&[&str], &[&str]); 29] = [
         (&["frobnicate"], &["frobnicate"]),
         (&["render", "--nonsense"], &["--nonsense"]),
         (&["render", "a.glb", "b.glb"], &["b.glb"]),
@@ -16,6 +16,7 @@ fn mistakes_are_status_2_and_one_line() {
         (&["render", "--size", "0x0"], &["0x0", "--size", "at least 1"]),
         (&["render", "--size", "5x-5"], &["--size"]),
         (&["render", "--size", "99999999999x1"], &["--size"]),
+        (&["render", "--aov", "depth", "--out", "a.png"], &["--aov", ".exr"]),
         (&["render", "--msaa", "3"], &["--msaa", "1, 4"]),
         (&["render", "--layers", "0"], &["--layers", "1 to 256"]),
         (&["render", "--layers", "257"], &["--layers", "1 to 256"]),
