@@ -12,8 +12,10 @@ mod error;
 mod facing;
 mod instance;
 mod light;
+mod light_reach;
 mod lint;
 mod load;
+mod shadow;
 mod shell;
 
 pub use animation::{Pose, pose};
@@ -28,5 +30,7 @@ pub use light::{
     AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
     lighting,
 };
+pub use light_reach::LightLists;
 pub use load::{Scene, Size};
+pub use shadow::{MAX_SHADOW_MAPS, SHADOW_BORDER_PX, ShadowMap, ShadowMaps, ball, shadow_maps};
 pub use shell::{shell_directions, shell_directions_of_mesh};
