@@ -22,6 +22,7 @@ pub mod layered;
 pub mod light;
 pub mod lock;
 pub mod satin;
+pub mod shadow;
 pub mod sheen;
 pub mod standard;
 pub mod strand;

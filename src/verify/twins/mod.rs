@@ -18,6 +18,7 @@ mod layered;
 mod light;
 mod lock;
 mod satin;
+mod shadow;
 mod sheen;
 mod standard;
 mod strand;
@@ -48,6 +49,7 @@ const FILES: &[&[Twin]] = &[
     light::TWINS,
     lock::TWINS,
     satin::TWINS,
+    shadow::TWINS,
     sheen::TWINS,
     standard::TWINS,
     strand::TWINS,
