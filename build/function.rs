@@ -86,7 +86,12 @@ impl Library {
             }
             if let Some(name) = head.strip_prefix("struct ").and_then(|rest| rest.strip_suffix('{')) {
                 let body = lines.by_ref().map(|(_, line)| line).take_while(|line| !line.starts_with('}'));
-                let members = body.filter(|line| !line.is_empty()).map(|line| declaration(line.trim_end_matches(';')));
+                let lines: Vec<_> = body.filter(|line| !line.is_empty()).collect();
+                // Of arrays no function of the library can be handed one.
+                if lines.iter().any(|line| line.contains('[')) {
+                    continue;
+                }
+                let members = lines.iter().map(|line| declaration(line.trim_end_matches(';')));
                 let members = members.collect::<Result<_, _>>().map_err(|error| format!("{number}: {error}"))?;
                 self.structs.insert(name.trim().to_owned(), members);
                 continue;

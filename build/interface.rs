@@ -37,6 +37,7 @@ pub(crate) enum BindingKind {
     Uniform { bytes: u32 },
     Storage { readonly: bool },
     Texture,
+    Cube,
     Sampler,
     StorageImage,
 }

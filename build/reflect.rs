@@ -5,7 +5,10 @@ use super::interface::{Binding, BindingKind, Field, FieldType, Interface, Slot, 
 use super::permutation::{Permutation, Stage};
 use super::spirv;
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
-use naga::{AddressSpace, ArraySize, Expression, Handle, ImageClass, Literal, Module, ScalarKind, Type, TypeInner};
+use naga::{
+    AddressSpace, ArraySize, Expression, Handle, ImageClass, ImageDimension, Literal, Module, ScalarKind, Type,
+    TypeInner,
+};
 
 /// Vertex inputs that `shader::VertexFormat` has a name for.
 const VERTEX_FORMATS: [&str; 5] = ["float", "vec2", "vec3", "vec4", "uint"];
@@ -63,6 +66,7 @@ fn read(module: &Module, info: &ModuleInfo, permutation: &Permutation) -> Result
             (AddressSpace::Handle, TypeInner::Image { class: ImageClass::Storage { .. }, .. }) => {
                 BindingKind::StorageImage
             }
+            (AddressSpace::Handle, TypeInner::Image { dim: ImageDimension::Cube, .. }) => BindingKind::Cube,
             (AddressSpace::Handle, TypeInner::Image { .. }) => BindingKind::Texture,
             (AddressSpace::Handle, TypeInner::BindingArray { .. }) => {
                 return Err(format!(

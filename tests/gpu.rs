@@ -90,12 +90,12 @@ fn tint_pipeline(gpu: &Gpu, constants: &[(&str, u32)]) -> Result<Pipeline, GpuEr
 fn target(gpu: &Gpu, name: &str, size: [u32; 2], format: vk::Format, samples: u32) -> Image {
     let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
     let usage = if samples == 1 { usage | vk::ImageUsageFlags::SAMPLED } else { usage };
-    gpu.image(&ImageDesc { name, size, format, mip_levels: 1, samples, usage }).unwrap()
+    gpu.image(&ImageDesc { name, size, format, mip_levels: 1, samples, usage, is_cube: false }).unwrap()
 }
 
 fn texture(gpu: &Gpu, name: &str, size: [u32; 2], mip_levels: u32) -> Image {
     let usage = vk::ImageUsageFlags::SAMPLED;
-    gpu.image(&ImageDesc { name, size, format: RGBA8, mip_levels, samples: 1, usage }).unwrap()
+    gpu.image(&ImageDesc { name, size, format: RGBA8, mip_levels, samples: 1, usage, is_cube: false }).unwrap()
 }
 
 fn clear(image: &Image, color: [f32; 4]) -> ColorTarget<'_> {
@@ -302,7 +302,8 @@ fn what_compute_writes_is_drawn_even_with_a_copy_between() {
 fn a_storage_image_is_written_by_compute_and_sampled_by_a_draw() {
     let gpu = open();
     let usage = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED;
-    let desc = ImageDesc { name: "painted", size: [4, 4], format: RGBA8, mip_levels: 1, samples: 1, usage };
+    let desc =
+        ImageDesc { name: "painted", size: [4, 4], format: RGBA8, mip_levels: 1, samples: 1, usage, is_cube: false };
     let painted = gpu.image(&desc).unwrap();
     let paint = gpu.compute_pipeline("paint", &PAINT_COMP, &[]).unwrap();
     let paint_group = gpu.bind_group(&paint, 0, "paint", &[("picture", Resource::StorageImage(&painted))]).unwrap();
@@ -476,7 +477,9 @@ fn an_image_beyond_the_device_is_refused_with_the_limit() {
     let gpu = open();
     let image = |size, samples, mip_levels| {
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        gpu.image(&ImageDesc { name: "huge", size, format: RGBA8, mip_levels, samples, usage }).err().unwrap()
+        gpu.image(&ImageDesc { name: "huge", size, format: RGBA8, mip_levels, samples, usage, is_cube: false })
+            .err()
+            .unwrap()
     };
     let error = image([100_000, 100_000], 1, 1);
     let limit = gpu.info().max_image_size.to_string();
@@ -625,7 +628,7 @@ fn an_image_that_one_dispatch_writes_and_samples_is_an_error() {
     let gpu = open();
     let usage = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED;
     let both = |name| {
-        let desc = ImageDesc { name, size: [4, 4], format: RGBA8, mip_levels: 1, samples: 1, usage };
+        let desc = ImageDesc { name, size: [4, 4], format: RGBA8, mip_levels: 1, samples: 1, usage, is_cube: false };
         gpu.image(&desc).unwrap()
     };
     let (one, other) = (both("one"), both("other"));

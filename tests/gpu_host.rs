@@ -23,7 +23,8 @@ fn the_host_keeps_what_is_its_own() {
     let image = unsafe { Image::from_host(&gpu, "host's", raw, view, FORMAT, SIZE, vk::ImageLayout::UNDEFINED) };
 
     let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-    let own_desc = ImageDesc { name: "own", size: SIZE, format: FORMAT, mip_levels: 1, samples: 4, usage };
+    let own_desc =
+        ImageDesc { name: "own", size: SIZE, format: FORMAT, mip_levels: 1, samples: 4, usage, is_cube: false };
     let own = gpu.image(&own_desc).unwrap();
     host.run(|command_buffer| {
         // SAFETY: the command buffer is recording, outside of a pass, and submitted once right after.

@@ -12,7 +12,7 @@ use vair::material::reference::hash;
 use vair::material::reference::strand::{Strand, cross_section, slab_opacity, width};
 use vair::oracle::{Coat, Corner, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render};
 use vair::render::{ShellAlpha, ShellSampling, Shells};
-use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene};
+use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene, Surroundings};
 
 /// Three numbers in [0, 1).
 fn random(stream: i32, index: usize) -> DVec3 {
@@ -308,7 +308,8 @@ impl View {
             (fur.edge_fade, fur.tip_fade) = (0.0, 0.0);
         }
         let pose = scene::pose(scene.asset(), None, 0.0);
-        let lighting = scene::lighting(scene.asset(), 0, &pose);
+        let surroundings = Surroundings::constant(Vec3::splat(0.05));
+        let lighting = Lighting { lights: scene::lights(scene.asset(), 0, &pose), surroundings };
         let target = Some(Vec3::new(0.0, 0.36, 0.0));
         let choice = CameraChoice::Orbit { theta_deg: 20.0, phi_deg: 75.0, radius_m: Some(0.6), target, fov_deg: 24.0 };
         Self { scene, pose, lighting, choice }

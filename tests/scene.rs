@@ -74,9 +74,9 @@ fn the_gallery_is_covered_by_its_backdrop() {
 fn the_gallery_has_its_own_lights_and_finite_shells() {
     let gallery = procedural::gallery();
     let pose = scene::pose(&gallery, None, 0.0);
-    let lighting = scene::lighting(&gallery, 0, &pose);
-    assert_eq!(lighting.lights.len(), 3);
-    for light in &lighting.lights {
+    let lights = scene::lights(&gallery, 0, &pose);
+    assert_eq!(lights.len(), 3);
+    for light in &lights {
         let incident = light.incident_at(Vec3::new(0.0, 0.4, 0.0));
         assert!(incident.irradiance.min_element() > 0.1, "{light:?} misses the main object");
     }
@@ -100,7 +100,7 @@ fn the_lit_quad_fills_the_picture_and_receives_pi() {
     assert!(camera.is_orthographic);
     let corner = camera.clip_from_world().project_point3(bounds.max);
     assert!((corner.truncate() - glam::Vec2::ONE).length() < 1e-6 && corner.z > 0.0 && corner.z < 1.0);
-    let light = scene::lighting(&asset, 0, &pose).lights[0].incident_at(Vec3::ZERO);
+    let light = scene::lights(&asset, 0, &pose)[0].incident_at(Vec3::ZERO);
     assert!((light.irradiance - Vec3::splat(std::f32::consts::PI)).length() < 1e-6);
     assert!((light.direction_to_light_in_world - Vec3::Z).length() < 1e-6);
 }
@@ -187,7 +187,7 @@ fn a_light_moves_with_its_animated_node() {
     }];
     asset.nodes[1].light = Some(0);
     let pose = scene::pose(&asset, Some(0), 1.0);
-    let light = &scene::lighting(&asset, 0, &pose).lights[0];
+    let light = &scene::lights(&asset, 0, &pose)[0];
     assert_eq!(light.position_in_world, Vec3::X * 10.0);
     assert!((light.incident_at(Vec3::X * 8.0).irradiance - Vec3::ONE).length() < 1e-6);
 }

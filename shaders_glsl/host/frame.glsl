@@ -15,8 +15,14 @@ struct FrameUniforms {
     uint light_count;          // entries of the light list
     vec3 view_in_world;        // unit vector against the view direction; the view vector of a parallel camera
     float orthographic;        // 1 for a parallel camera, 0 for perspective
-    vec3 ambient_radiance;     // linear RGB, from every direction alike
+    vec3 environment_scale;    // linear RGB radiance of a texel of 1 in the environment's map
+    float environment_levels;  // number of the map's last level
+    vec2 environment_turn;     // cosine and sine of the environment's rotation around +Y
     float _reserved_0;
+    float _reserved_1;
+    // Linear RGB radiance of the environment as real spherical harmonics of bands 0 to 4, orthonormal, coefficient
+    // l * l + l + m; in the environment's own axes, z the polar one.
+    vec4 environment_harmonics[25];
 };
 
 struct LightSource {

@@ -30,10 +30,10 @@ vec3 classic_radiance(SurfaceFragment f, vec3 sheen_color, float sheen_roughness
     SheenLobe pile = sheen_table_lobe(SHEEN_CLASSIC, v, f.roughness);
     SheenLobe fibre = sheen_table_lobe(SHEEN_CLASSIC, v, sheen_roughness);
     vec2 roughness = vec2(f.roughness, sheen_roughness);
-    vec3 sum = frame.ambient_radiance
+    vec3 sum = environment_irradiance(f.world_from_tangent[2])
         * cotton_classic_ambient(f.base_color, sheen_color, pile, fibre, v.z, roughness, f.occlusion);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         sum += light.irradiance * cotton_classic_brdf_times_cosine(f.base_color, sheen_color, pile, fibre, v, l);
     }

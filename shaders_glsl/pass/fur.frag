@@ -27,8 +27,7 @@ layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity 
 layout(constant_id = 14) const uint SAMPLING = 0;            // 0 slab, 1 point
 layout(constant_id = 15) const uint ALPHA = 0;               // 0 correlated between shells, 1 each shell alone, 2 step
 
-layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
-layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
+#include "lighting.glsl"
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
 #ifdef MAPS
 layout(set = 1, binding = 3) uniform texture2D distribution_map;
@@ -255,9 +254,9 @@ void main() {
     color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
 
     float variance = strand_variance(fur.roughness);
-    vec3 sum = frame.ambient_radiance * color * mix(1.0 - fur.occlusion, 1.0, height);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(normal) * color * mix(1.0 - fur.occlusion, 1.0, height);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         float through = strand_light_through_coat(height, fur.occlusion, dot(normal, light.direction_in_world));
         vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
         sum += light.irradiance * through * scattered;

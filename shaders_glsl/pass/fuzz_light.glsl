@@ -15,9 +15,9 @@ vec3 fuzz_radiance(
     }
     FuzzSurface surface = fuzz_surface(diffuse, pile_color, has_fibre ? fibre_color : vec3(0.0), pile, fibre);
     vec2 roughness = vec2(f.roughness, fibre_roughness);
-    vec3 sum = frame.ambient_radiance * fuzz_ambient(surface, v.z, roughness, f.occlusion);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * fuzz_ambient(surface, v.z, roughness, f.occlusion);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         if (l.z <= 0.0) { continue; }
         vec2 albedo_l = vec2(sheen_table_texel(sheen, l.z, f.roughness).x, 0.0);

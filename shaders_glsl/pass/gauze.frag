@@ -28,9 +28,9 @@ vec3 reflected(SurfaceFragment f, Threads t, float depth) {
         }
     }
     GauzeSurface surface = gauze_surface(diffuse, depth, gauze.mean_opacity, albedo, average);
-    vec3 sum = frame.ambient_radiance * f.occlusion * gauze_ambient(surface, albedo);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * gauze_ambient(surface, albedo);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         vec3 mirrored = vec3(l.xy, abs(l.z));
         float depth_l = depth_along(mirrored);
@@ -63,9 +63,9 @@ vec3 classic_reflected(SurfaceFragment f, Threads t, float opacity) {
     vec3 v = other ? turned(f.eye_in_tangent) : f.eye_in_tangent;
     vec2 alpha = satin_classic_alpha(f.roughness, gauze.anisotropy);
     vec3 diffuse = f.base_color * (1.0 - f.metallic);
-    vec3 sum = frame.ambient_radiance * f.occlusion * diffuse;
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * diffuse;
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         if (l.z <= 0.0) { continue; }
         vec3 brdf = diffuse * (0.318309886 * l.z);
@@ -91,6 +91,6 @@ void main() {
         opacity = gauze_opacity(depth);
         sum = reflected(f, t, depth);
     }
-    radiance = vec4(min((sum + f.emissive * opacity) * cover, vec3(RADIANCE_LIMIT)), opacity * cover);
+    surface_output((sum + f.emissive * opacity) * cover, vec3(1.0 - opacity * cover));
     surface_cover(mask);
 }

@@ -64,9 +64,9 @@ void main() {
     float metal = share * glint.intensity;
 
     vec3 flakes_ambient = compensated_albedo(glint.flake_color, 1.0, terms) * cover.rgb;
-    vec3 sum = frame.ambient_radiance * f.occlusion * (bare * standard_ambient(cloth) + metal * flakes_ambient);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * (bare * standard_ambient(cloth) + metal * flakes_ambient);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;
         vec3 reflected = bare * standard_brdf_times_cosine(cloth, f.eye_in_tangent, light_in_tangent);
         vec3 smooth_lobe = glint_smooth_times_cosine(glint.flake_color, compensation, alpha, f.eye_in_tangent, light_in_tangent);

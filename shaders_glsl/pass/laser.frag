@@ -104,9 +104,9 @@ void main() {
     } else {
         surface = standard_surface(f.base_color * painted_color(f.eye_in_tangent), f.metallic, f.roughness, f.eye_in_tangent.z);
     }
-    vec3 sum = frame.ambient_radiance * f.occlusion * standard_ambient(surface);
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * standard_ambient(surface);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;
         sum += light.irradiance * standard_brdf_times_cosine(surface, f.eye_in_tangent, light_in_tangent);
     }

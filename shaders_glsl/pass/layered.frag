@@ -258,9 +258,9 @@ void main() {
         through *= left;
     }
 
-    vec3 sum = frame.ambient_radiance * f.occlusion * ambient;
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * ambient;
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * world_from_base;
         vec3 seen = layered_base_times_cosine(base, eye, l, base_terms(l, f.roughness, m.widths));
 #ifdef SHEEN
@@ -276,7 +276,7 @@ void main() {
         }
         sum += light.irradiance * seen;
     }
-    surface_write(f, sum, surface_opacity(color.a));
-    radiance.a *= 1.0 - through;
+    float opacity = surface_opacity(color.a);
+    surface_output(min(sum + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0 - opacity * (1.0 - through)));
     surface_cover(mask);
 }

@@ -72,9 +72,9 @@ vec3 reflected(SurfaceFragment f, float noise) {
     }
     vec3 diffuse = f.base_color * (1.0 - f.metallic);
     vec3 coupled = diffuse * 0.318309886 * (1.0 - albedo) / max(1.0 - average, 1e-4);
-    vec3 sum = frame.ambient_radiance * f.occlusion * (albedo + diffuse * (1.0 - albedo));
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * (albedo + diffuse * (1.0 - albedo));
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         if (l.z <= 0.0) { continue; }
         vec3 brdf = vec3(0.0);
@@ -109,7 +109,7 @@ vec3 classic_reflected(SurfaceFragment f, float noise) {
     float strength = satin.specular_strength * noise;
     float wide_roughness = min(f.roughness * satin.secondary_width, 1.0);
     float a = satin.anisotropy;
-    vec3 ambient = frame.ambient_radiance * f.occlusion;
+    vec3 ambient = environment_irradiance(f.world_from_tangent[2]) * f.occlusion;
     vec3 sum = ambient * diffuse;
     if (NARROW) {
         vec3 albedo = classic_albedo(f0, f.roughness, a, v);
@@ -121,8 +121,8 @@ vec3 classic_reflected(SurfaceFragment f, float noise) {
         if (TWO_WAY) { albedo += classic_albedo(f0, wide_roughness, -a, v); }
         sum += satin_classic_light(satin.secondary_color, ambient, satin.light_tint) * (strength * albedo);
     }
-    for (uint index = 0u; index < frame.light_count; ++index) {
-        LightSample light = light_sample(lights[index], position_in_world);
+    for (uint index = 0u; index < light_count(); ++index) {
+        LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
         if (l.z <= 0.0) { continue; }
         sum += light.irradiance * diffuse * (0.318309886 * l.z);

@@ -6,7 +6,6 @@
 #include "frame.glsl"
 #include "standard_material.glsl"
 #include "direction.glsl"
-#include "light.glsl"
 #include "uv.glsl"
 #include "hash.glsl"
 #include "coverage.glsl"
@@ -26,10 +25,11 @@ layout(constant_id = 7) const bool HAS_NORMAL_MAP = false;
 layout(constant_id = 8) const bool HAS_DETAIL_ALBEDO_MAP = false;
 layout(constant_id = 9) const bool HAS_DETAIL_NORMAL_MAP = false;
 
-layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 1, binding = 0, std140) uniform StandardBlock { StandardUniforms material; };
-#ifndef UNLIT
-layout(set = 0, binding = 1, std430) readonly buffer LightList { LightSource lights[]; };
+#ifdef UNLIT
+layout(set = 0, binding = 0, std140) uniform FrameBlock { FrameUniforms frame; };
+#else
+#include "lighting.glsl"
 #endif
 #ifdef UV
 layout(set = 1, binding = 1) uniform texture2D base_color_map;
@@ -148,7 +148,7 @@ struct SurfaceFragment {
     vec3 base_color;           // linear, [0, 1]
     float metallic;
     float roughness;           // perceptual
-    float occlusion;           // share of the ambient light that arrives
+    float occlusion;           // share of the ambient light that arrives, by map and screen
     vec3 emissive;             // linear radiance
     vec3 normal_in_world;      // interpolated, turned to the side that is seen; the maps have not bent it
     mat3 world_from_tangent;   // columns: tangent, bitangent, shading normal; CLOTH: along u and v, on both sides
@@ -200,9 +200,19 @@ SurfaceFragment surface_fragment(vec4 color) {
     return f;
 }
 
+#endif
+
+// All that a surface shows: linear radiance, premultiplied by its opacity, and the share of what lies behind that it lets
+// through, by channel.
+void surface_output(vec3 premultiplied, vec3 transmittance) {
+    float opacity = 1.0 - (transmittance.r + transmittance.g + transmittance.b) * (1.0 / 3.0);
+    radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
+}
+
+#ifndef UNLIT
 // `reflected` is what the lights and the surroundings give.
 void surface_write(SurfaceFragment f, vec3 reflected, float opacity) {
-    radiance = vec4(min(reflected + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, opacity);
+    surface_output(min(reflected + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0 - opacity));
 }
 #endif
 

@@ -21,6 +21,7 @@ mod camera;
 mod container;
 mod context;
 mod document;
+mod environment;
 mod error;
 mod extension;
 mod gltf;
@@ -42,6 +43,7 @@ mod topology;
 mod uri;
 
 pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
+pub use environment::Environment;
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use material_extension::{

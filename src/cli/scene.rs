@@ -11,7 +11,7 @@ use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
 use vair::render::{Background, FrameOptions, HdrFormat, Shells, Tonemap};
-use vair::scene::{self, CameraChoice, Scene, SceneError};
+use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
 /// What to show.
 #[derive(Debug, Args)]
@@ -160,7 +160,8 @@ impl SceneArguments {
                 TonemapChoice::None => Tonemap::None,
             },
             exposure_ev: self.exposure,
-            ambient_radiance: None,
+            surroundings: Surroundings::default(),
+            lights: Vec::new(),
             background: self.background,
             hdr_format: match self.hdr_format {
                 HdrChoice::Rgba16f => HdrFormat::Rgba16f,

@@ -142,6 +142,10 @@ fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, 
     use vk::DescriptorType as T;
     match (slot.descriptor, resource) {
         (T::UNIFORM_BUFFER | T::STORAGE_BUFFER, Resource::Buffer(buffer)) => buffer_info(context, slot, buffer),
+        (T::SAMPLED_IMAGE, Resource::Texture(image)) if slot.is_cube != (image.0.layers == 6) => {
+            let (asked, given) = if slot.is_cube { ("a cube", "flat") } else { ("a flat texture", "a cube") };
+            Err(format!("the shader has {asked} and '{}' is {given}", image.name()))
+        }
         (T::SAMPLED_IMAGE, Resource::Texture(image)) => {
             image_info(image, image.0.view, vk::ImageUsageFlags::SAMPLED, ImageUse::Sampled)
         }

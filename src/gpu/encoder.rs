@@ -168,7 +168,8 @@ impl Encoder {
     /// Copies level 0 of `image`, rows tightly packed from the top, to the start of `buffer`.
     pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer) {
         let inner = &image.0;
-        let fits = format::format_bytes(inner.format, inner.size).is_some_and(|bytes| bytes <= buffer.bytes());
+        let bytes = format::format_bytes(inner.format, inner.size).map(|bytes| bytes * u64::from(inner.layers));
+        let fits = bytes.is_some_and(|bytes| bytes <= buffer.bytes());
         if !fits || inner.samples != 1 || !inner.usage.contains(vk::ImageUsageFlags::TRANSFER_SRC) {
             let what = format!("{:?} of {:?} texels, {} samples", inner.format, inner.size, inner.samples);
             let problem = format!("{what}, cannot be copied to '{}' of {} bytes", buffer.name(), buffer.bytes());
@@ -543,7 +544,7 @@ fn copy_region(image: &ImageInner, buffer_offset: u64, mip_level: u32) -> vk::Bu
             aspect_mask: format::view_aspect(image.format),
             mip_level,
             base_array_layer: 0,
-            layer_count: 1,
+            layer_count: image.layers,
         })
         .image_extent(vk::Extent3D { width, height, depth: 1 })
 }

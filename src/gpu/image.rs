@@ -1,4 +1,4 @@
-//! Two-dimensional images with their one view.
+//! Two-dimensional images and cubes with their one view.
 
 use super::barrier::ImageUse;
 use super::device::{Context, Gpu, lock};
@@ -24,6 +24,8 @@ pub struct ImageDesc<'a> {
     pub samples: u32,
     /// Uses. Copies are added for images of 1 sample that are not transient.
     pub usage: vk::ImageUsageFlags,
+    /// Six square faces (+X, -X, +Y, -Y, +Z, -Z) that a direction looks up, for sampling alone.
+    pub is_cube: bool,
 }
 
 /// An image that knows how it was used last.
@@ -42,6 +44,8 @@ pub(crate) struct ImageInner {
     pub(crate) mip_levels: u32,
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
+    /// 6 of a cube.
+    pub(crate) layers: u32,
     pub(crate) last_use: Mutex<ImageUse>,
     /// Number of the encoder that has recorded this and is neither submitted nor dropped; 0 without one.
     pub(crate) recorder: AtomicU64,
@@ -67,13 +71,15 @@ impl Gpu {
             usage |= vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
         }
         check_support(&context, desc, usage)?;
+        let layers = if desc.is_cube { 6 } else { 1 };
 
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(desc.format)
             .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(desc.mip_levels)
-            .array_layers(1)
+            .array_layers(layers)
+            .flags(create_flags(desc))
             .samples(vk::SampleCountFlags::from_raw(desc.samples))
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(usage);
@@ -92,6 +98,7 @@ impl Gpu {
             mip_levels: desc.mip_levels,
             samples: desc.samples,
             usage,
+            layers,
             last_use: Mutex::new(ImageUse::Undefined),
             recorder: AtomicU64::new(0),
             block: Mutex::new(None),
@@ -115,10 +122,15 @@ impl Gpu {
             | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
         if usage.intersects(viewed) {
             inner.view = inner.create_view(desc.mip_levels)?;
-            inner.level_0_view = if desc.mip_levels == 1 { inner.view } else { inner.create_view(1)? };
+            inner.level_0_view =
+                if desc.mip_levels == 1 || desc.is_cube { inner.view } else { inner.create_view(1)? };
         }
         Ok(Image(Arc::new(inner)))
     }
+}
+
+fn create_flags(desc: &ImageDesc<'_>) -> vk::ImageCreateFlags {
+    if desc.is_cube { vk::ImageCreateFlags::CUBE_COMPATIBLE } else { vk::ImageCreateFlags::empty() }
 }
 
 fn check_support(context: &Context, desc: &ImageDesc<'_>, usage: vk::ImageUsageFlags) -> Result<(), GpuError> {
@@ -131,13 +143,20 @@ fn check_support(context: &Context, desc: &ImageDesc<'_>, usage: vk::ImageUsageF
             vk::ImageType::TYPE_2D,
             vk::ImageTiling::OPTIMAL,
             usage,
-            vk::ImageCreateFlags::empty(),
+            create_flags(desc),
         )
     };
     let properties = found.map_err(|result| match result {
         vk::Result::ERROR_FORMAT_NOT_SUPPORTED => unsupported(format!("format {:?} used as {usage:?}", desc.format)),
         result => GpuError::from_vk("asking about the format of", desc.name, result),
     })?;
+    let drawn = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+    let [width, height] = desc.size;
+    if desc.is_cube && (width != height || usage.intersects(drawn | vk::ImageUsageFlags::STORAGE)) {
+        return Err(unsupported(format!(
+            "a cube of {width}x{height} used as {usage:?}: its faces are square and sampled"
+        )));
+    }
     let full_chain = desc.size.iter().max().map_or(1, |side| side.ilog2() + 1);
     if desc.mip_levels == 0 || desc.mip_levels > properties.max_mip_levels.min(full_chain) {
         return Err(unsupported(format!("{} mip levels of 1 to {full_chain}", desc.mip_levels)));
@@ -181,6 +200,7 @@ impl Image {
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::from_raw(u32::MAX),
+            layers: 1,
             last_use: Mutex::new(last_use),
             recorder: AtomicU64::new(0),
             block: Mutex::new(None),
@@ -219,10 +239,10 @@ impl ImageInner {
         let range = vk::ImageSubresourceRange::default()
             .aspect_mask(format::view_aspect(self.format))
             .level_count(level_count)
-            .layer_count(1);
+            .layer_count(self.layers);
         let info = vk::ImageViewCreateInfo::default()
             .image(self.raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
+            .view_type(if self.layers == 1 { vk::ImageViewType::TYPE_2D } else { vk::ImageViewType::CUBE })
             .format(self.format)
             .subresource_range(range);
         // SAFETY: the image has memory and at least `level_count` levels.

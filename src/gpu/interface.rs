@@ -20,6 +20,8 @@ pub(crate) struct Slot {
     pub(crate) descriptor: vk::DescriptorType,
     /// Smallest buffer range that serves, bytes; 0 where the shader does not say.
     pub(crate) bytes: u64,
+    /// A texture that a direction looks up.
+    pub(crate) is_cube: bool,
 }
 
 /// The merged interface of all stages.
@@ -44,11 +46,12 @@ fn slot(binding: &Binding) -> Slot {
     let (descriptor, bytes) = match binding.kind {
         BindingKind::Uniform { bytes } => (vk::DescriptorType::UNIFORM_BUFFER, u64::from(bytes)),
         BindingKind::Storage { .. } => (vk::DescriptorType::STORAGE_BUFFER, 0),
-        BindingKind::Texture => (vk::DescriptorType::SAMPLED_IMAGE, 0),
+        BindingKind::Texture | BindingKind::Cube => (vk::DescriptorType::SAMPLED_IMAGE, 0),
         BindingKind::Sampler => (vk::DescriptorType::SAMPLER, 0),
         BindingKind::StorageImage => (vk::DescriptorType::STORAGE_IMAGE, 0),
     };
-    Slot { binding: binding.binding, name: binding.name, descriptor, bytes }
+    let is_cube = binding.kind == BindingKind::Cube;
+    Slot { binding: binding.binding, name: binding.name, descriptor, bytes, is_cube }
 }
 
 fn problem(pipeline: &str, problem: String) -> GpuError {
@@ -70,7 +73,7 @@ impl Interface {
                 let new = slot(binding);
                 match set.iter_mut().find(|old| old.binding == new.binding) {
                     None => set.push(new),
-                    Some(old) if old.name == new.name && old.descriptor == new.descriptor => {
+                    Some(old) if (old.name, old.descriptor, old.is_cube) == (new.name, new.descriptor, new.is_cube) => {
                         old.bytes = old.bytes.max(new.bytes);
                     }
                     Some(old) => {

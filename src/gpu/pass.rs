@@ -164,6 +164,8 @@ pub struct RenderPass<'e> {
     encoder: &'e mut Encoder,
     bound: Bound,
     targets: TargetFormats,
+    /// Texels of the pass.
+    size: [u32; 2],
     /// By location.
     streams: [Option<Stream>; STREAM_COUNT],
     /// Indices in the bound range.
@@ -173,26 +175,40 @@ pub struct RenderPass<'e> {
 impl<'e> RenderPass<'e> {
     pub(crate) fn new(encoder: &'e mut Encoder, targets: TargetFormats, size: [u32; 2]) -> Self {
         let streams = [None; STREAM_COUNT];
-        let mut pass = Self { encoder, bound: Bound::default(), targets, streams, index_count: None };
-        pass.draw_to(size);
+        let mut pass = Self { encoder, bound: Bound::default(), targets, size, streams, index_count: None };
+        pass.draw_to([0; 2], size);
         pass.cull(vk::CullModeFlags::NONE, vk::FrontFace::COUNTER_CLOCKWISE);
         pass
     }
 
-    /// Viewport and scissor are the area of the pass, texels.
-    fn draw_to(&mut self, size: [u32; 2]) {
+    /// Draws to a part of the targets from now on: `origin` and `size` in texels from the top left corner. A part that
+    /// reaches beyond the pass fails the submission.
+    pub fn viewport(&mut self, origin: [u32; 2], size: [u32; 2]) {
+        let fits = (0..2).all(|axis| {
+            size[axis] > 0 && u64::from(origin[axis]) + u64::from(size[axis]) <= u64::from(self.size[axis])
+        });
+        if !fits {
+            let problem = format!("a viewport of {size:?} at {origin:?} in a pass of {:?}", self.size);
+            return self.encoder.fail(GpuError::Interface { pipeline: "none".to_owned(), problem });
+        }
+        self.draw_to(origin, size);
+    }
+
+    fn draw_to(&mut self, origin: [u32; 2], size: [u32; 2]) {
         let device = &self.encoder.gpu().context().device;
+        let [left, top] = origin;
         let [width, height] = size;
         // A negative height turns clip space Y up.
         let viewport = vk::Viewport {
-            x: 0.0,
-            y: height as f32,
+            x: left as f32,
+            y: (top + height) as f32,
             width: width as f32,
             height: -(height as f32),
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        let scissor = vk::Rect2D::default().extent(vk::Extent2D { width, height });
+        let offset = vk::Offset2D { x: left as i32, y: top as i32 };
+        let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
         // SAFETY: the area is not empty and within the targets, and a viewport may be as large as any target.
         unsafe { device.cmd_set_viewport(self.encoder.command_buffer, 0, &[viewport]) };
         // SAFETY: as above.

@@ -196,7 +196,11 @@ fn expect_stage(pipeline: &str, shader: &Shader, stage: Stage) -> Result<(), Gpu
 
 /// What is wrong where a shader reads more textures than the device lets one stage read.
 fn too_many_textures(shader: &Shader, limit: u32) -> Option<String> {
-    let count = shader.bindings.iter().filter(|binding| binding.kind == BindingKind::Texture).count();
+    let count = shader
+        .bindings
+        .iter()
+        .filter(|binding| matches!(binding.kind, BindingKind::Texture | BindingKind::Cube))
+        .count();
     (count > limit as usize).then(|| format!("{count} textures in one shader (reads at most {limit})"))
 }
 

@@ -11,7 +11,7 @@ use ash::vk;
 const TIMEOUT_MS: u64 = 120_000;
 
 impl Gpu {
-    /// Reads level 0 of an image: rows tightly packed from the top, texels in the image's format. Waits for all earlier
+    /// Reads level 0 of an image: rows tightly packed from the top, faces one after another, texels in the image's format. Waits for all earlier
     /// work.
     ///
     /// # Errors
@@ -21,7 +21,7 @@ impl Gpu {
         let bytes = format_bytes(image.format(), image.size()).ok_or_else(|| GpuError::Unsupported {
             name: image.name().to_owned(),
             problem: format!("reading back {:?}", image.format()),
-        })?;
+        })? * u64::from(image.0.layers);
         let buffer = self.buffer("readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
         let mut encoder = self.encoder("readback")?;
         encoder.copy_image_to_buffer(image, &buffer);

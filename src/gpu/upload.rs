@@ -65,7 +65,8 @@ impl Upload {
         });
     }
 
-    /// Takes a copy of the first mip levels of `target`, each tightly packed from the top row. Afterwards the image can
+    /// Takes a copy of the first mip levels of `target`, each tightly packed from the top row, the faces of a cube
+    /// one after another. Afterwards the image can
     /// be sampled. An error waits for [`Upload::finish`].
     pub fn image(&mut self, target: &Image, levels: &[&[u8]]) {
         let inner = &target.0;
@@ -76,7 +77,7 @@ impl Upload {
         }
         for (level, bytes) in (0_u32..).zip(levels) {
             let size = level_size(inner.size, level);
-            let expected = format_bytes(inner.format, size);
+            let expected = format_bytes(inner.format, size).map(|bytes| bytes * u64::from(inner.layers));
             if expected != Some(bytes.len() as u64) {
                 let expected = expected.map_or("an unknown number".to_owned(), |count| count.to_string());
                 let what = format!("{} bytes given for level {level} of {size:?} {:?}", bytes.len(), inner.format);

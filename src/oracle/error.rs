@@ -12,6 +12,12 @@ pub enum OracleError {
         /// Pixels.
         height: u32,
     },
+    /// The surroundings differ from one direction to another.
+    #[error("the reference knows constant surroundings alone, not those of '{name}'; ask for Surroundings::constant")]
+    Surroundings {
+        /// The environment.
+        name: String,
+    },
     /// Noise is estimated from pairs of samples.
     #[error("{samples} samples a pixel give no estimate of the noise; ask for an even number, at least 2")]
     Samples {

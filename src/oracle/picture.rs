@@ -65,8 +65,16 @@ pub fn render(
     if samples < 2 || !samples.is_multiple_of(2) {
         return Err(OracleError::Samples { samples });
     }
+    let Some(ambient_radiance) = lighting.surroundings.constant_radiance() else {
+        return Err(OracleError::Surroundings { name: lighting.surroundings.environment.name.clone() });
+    };
     let stage = Stage::new(scene, scene_index, pose, variant)?;
-    let shading = Shading { lighting, eye: Eye::new(camera), fit: Fit::shipped() };
+    let shading = Shading {
+        lights: &lighting.lights,
+        ambient_radiance: ambient_radiance.as_dvec3(),
+        eye: Eye::new(camera),
+        fit: Fit::shipped(),
+    };
     let rows: Vec<Vec<(DVec4, DVec3)>> = (0..height)
         .into_par_iter()
         .map(|y| (0..width).map(|x| pixel(&stage, &shading, [x, y], options)).collect())

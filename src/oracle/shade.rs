@@ -10,7 +10,7 @@ use crate::material::reference::albedo::Fit;
 use crate::material::reference::standard::Surface;
 use crate::material::reference::{direction, light, strand, uv};
 use crate::material::{AlphaMode, Fur, Standard};
-use crate::scene::{Light, LightKind, Lighting, Size};
+use crate::scene::{Light, LightKind, Size};
 use glam::{DVec2, DVec3, DVec4};
 
 /// A surface's material.
@@ -124,8 +124,10 @@ fn mixed_uv([a, b, c]: [DVec2; 3], barycentric: DVec3) -> DVec2 {
 
 /// What shades all places of a picture.
 pub struct Shading<'a> {
-    /// Lights and surroundings.
-    pub lighting: &'a Lighting,
+    /// Lights.
+    pub lights: &'a [Light],
+    /// Radiance of the surroundings, the same from everywhere.
+    pub ambient_radiance: DVec3,
     /// Whose eye.
     pub eye: Eye,
     /// Directional albedo of surfaces.
@@ -161,8 +163,8 @@ impl Shading<'_> {
             metallic: standard.metallic.into(),
             roughness: standard.roughness.into(),
         };
-        let ambient = self.lighting.ambient_radiance.as_dvec3() * surface.ambient(&self.fit, to_eye.z);
-        let lit = self.lighting.lights.iter().map(|light| {
+        let ambient = self.ambient_radiance * surface.ambient(&self.fit, to_eye.z);
+        let lit = self.lights.iter().map(|light| {
             let (to_light, irradiance) = incident(light, place);
             irradiance * surface.brdf_times_cosine(&self.fit, to_eye, in_tangent(to_light))
         });
@@ -180,8 +182,8 @@ impl Shading<'_> {
         let to_eye = self.eye.direction_to(place, normal);
         let color = dress.color(tuft, hit);
         let (occlusion, specular) = (f64::from(fur.occlusion), f64::from(fur.specular));
-        let ambient = self.lighting.ambient_radiance.as_dvec3() * color * (1.0 - occlusion * (1.0 - height));
-        let lit = self.lighting.lights.iter().map(|light| {
+        let ambient = self.ambient_radiance * color * (1.0 - occlusion * (1.0 - height));
+        let lit = self.lights.iter().map(|light| {
             let (to_light, irradiance) = incident(light, place);
             let through = strand::light_through_coat(height, occlusion, normal.dot(to_light));
             let scattered = color

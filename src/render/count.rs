@@ -73,7 +73,7 @@ impl Renderer {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, &shot)?;
+        let data = FrameData::new(&self.gpu, &self.resources, None, scene, &shot)?;
         let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
@@ -84,6 +84,7 @@ impl Renderer {
             mip_levels: 1,
             samples: options.msaa,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT,
+            is_cube: false,
         })?;
 
         let mut encoder = self.gpu.encoder("fragment counts")?;

@@ -1,6 +1,7 @@
 //! What changes every frame: camera, lights, places, coats; and the bind groups over it.
 
 use super::Shot;
+use super::environment::{EnvironmentMaps, HARMONICS};
 use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::PipelineSpec;
@@ -9,7 +10,7 @@ use super::resources::Resources;
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
-use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, joint_matrices};
+use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, Surroundings, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms};
 use ash::vk;
 use bytemuck::NoUninit;
@@ -38,16 +39,21 @@ impl FrameData {
     ///
     /// # Errors
     /// When the device is out of memory or lost.
-    pub fn new(gpu: &Gpu, resources: &Resources, scene: &Scene, shot: &Shot) -> Result<Self, GpuError> {
+    pub fn new(
+        gpu: &Gpu,
+        resources: &Resources,
+        environment: Option<&EnvironmentMaps>,
+        scene: &Scene,
+        shot: &Shot,
+    ) -> Result<Self, GpuError> {
         let Shot { plan, camera, lighting, .. } = shot;
-        let lit = plan.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"));
         let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
-        let frame = frame_uniforms(camera, lighting);
+        let frame = frame_uniforms(camera, lighting, environment);
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
         let mut data = Self {
             frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
-            lights: if lit {
+            lights: if plan.is_lit() {
                 Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)
             } else {
                 None
@@ -56,16 +62,26 @@ impl FrameData {
             shared_groups: HashMap::new(),
             coat_groups: HashMap::new(),
         };
-        data.bind_shared(gpu, resources, plan)?;
+        data.bind_shared(gpu, resources, environment, plan)?;
         for draw in plan.fur.iter().chain(&plan.transparent) {
             data.bind_coat(gpu, resources, scene, shot, draw)?;
         }
         Ok(data)
     }
 
-    fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, plan: &Plan) -> Result<(), GpuError> {
+    fn bind_shared(
+        &mut self,
+        gpu: &Gpu,
+        resources: &Resources,
+        environment: Option<&EnvironmentMaps>,
+        plan: &Plan,
+    ) -> Result<(), GpuError> {
         let mut offered =
             vec![("FrameBlock", Resource::Buffer(&self.frame)), ("ObjectList", Resource::Buffer(&self.objects))];
+        if let Some(maps) = environment {
+            offered.push(("environment_map", Resource::Texture(&maps.map)));
+            offered.push(("environment_sampler", Resource::Sampler(&maps.sampler)));
+        }
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));
         }
@@ -119,14 +135,25 @@ pub(super) fn filled<T: NoUninit>(
     Ok(buffer)
 }
 
-fn frame_uniforms(camera: &Camera, lighting: &Lighting) -> FrameUniforms {
+fn frame_uniforms(camera: &Camera, lighting: &Lighting, environment: Option<&EnvironmentMaps>) -> FrameUniforms {
+    let Surroundings { strength, rotation_deg, .. } = lighting.surroundings;
+    let turn = rotation_deg.to_radians();
+    // A frame without light to ask for has none.
+    let mut environment_harmonics = [[0.0; 4]; HARMONICS];
+    for (harmonic, radiance) in environment_harmonics.iter_mut().zip(environment.iter().flat_map(|maps| maps.harmonics))
+    {
+        *harmonic = (radiance * strength).extend(0.0).to_array();
+    }
     FrameUniforms {
         clip_from_world: camera.clip_from_world().to_cols_array_2d(),
         eye_in_world: camera.eye_in_world().to_array(),
         light_count: lighting.lights.len() as u32,
         view_in_world: camera.backwards_in_world().to_array(),
         orthographic: if camera.is_orthographic { 1.0 } else { 0.0 },
-        ambient_radiance: lighting.ambient_radiance.to_array(),
+        environment_scale: environment.map_or(Vec3::ZERO, |maps| maps.scale * strength).to_array(),
+        environment_levels: environment.map_or(0, |maps| maps.last_level) as f32,
+        environment_turn: [turn.cos(), turn.sin()],
+        environment_harmonics,
         ..Default::default()
     }
 }

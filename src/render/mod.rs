@@ -5,11 +5,13 @@
 
 mod cloth;
 mod count;
+mod environment;
 mod file;
 mod frame;
 mod frame_data;
 mod geometry;
 mod left_out;
+mod lit;
 mod map;
 mod material;
 mod memory;
@@ -44,9 +46,11 @@ pub use stream::Stream;
 pub use table::Table;
 pub use targets::Attachment;
 
+use crate::asset::Environment;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
 use ash::vk;
+use environment::EnvironmentMaps;
 use frame_data::FrameData;
 use glam::Vec4;
 use memory::PICTURE_NAME;
@@ -55,6 +59,7 @@ use pass::tonemap::Display;
 use pass::{Frame, Moving};
 use resources::Resources;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 use sway::SwayMemory;
 use targets::Targets;
@@ -136,12 +141,13 @@ impl Shot {
         options.check_coats(scene, &instances)?;
         let shown = scene.outline(scene_index, options.animation);
         let aspect = options.size[0] as f32 / options.size[1] as f32;
-        let mut lighting = scene::lighting(asset, scene_index, &pose);
-        lighting.ambient_radiance = options.ambient_radiance.unwrap_or(lighting.ambient_radiance);
+        let mut lights = scene::lights(asset, scene_index, &pose);
+        lights.extend(options.lights.iter().cloned());
+        let lighting = Lighting { lights, surroundings: options.surroundings.clone() };
         Ok(Self {
             camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
+            plan: Plan::new(scene, instances, &lighting, options),
             lighting,
-            plan: Plan::new(scene, instances, options),
             pose,
         })
     }
@@ -162,6 +168,8 @@ pub struct Renderer {
     picture: Option<Image>,
     /// Which scene the resources belong to.
     scene: Option<u64>,
+    /// Light from all around, of the last frame.
+    environment: Option<EnvironmentMaps>,
     /// Strands that lag behind.
     sway: SwayMemory,
 }
@@ -181,7 +189,15 @@ impl Renderer {
     /// None: nothing is made before a plan asks for it.
     pub fn with_gpu(gpu: Gpu) -> Result<Self, RenderError> {
         let resources = Resources::new(&gpu);
-        Ok(Self { resources, gpu, targets: None, picture: None, scene: None, sway: SwayMemory::default() })
+        Ok(Self {
+            resources,
+            gpu,
+            targets: None,
+            picture: None,
+            scene: None,
+            environment: None,
+            sway: SwayMemory::default(),
+        })
     }
 
     /// The device.
@@ -239,7 +255,7 @@ impl Renderer {
             rgba: self.gpu.read_image(self.picture.insert(target))?,
             radiance,
             background: match options.background {
-                Background::Environment => Some(shot.lighting.ambient_radiance),
+                Background::Environment => Some(shot.lighting.surroundings.constant_radiance().unwrap_or_default()),
                 Background::Color(color) => Some(color),
                 Background::Transparent => None,
             },
@@ -311,8 +327,21 @@ impl Renderer {
         }
         let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
         self.resources.make_pipeline(&tonemap)?;
-        let data = FrameData::new(&self.gpu, &self.resources, scene, shot)?;
+        if shot.plan.is_lit() {
+            self.prepare_environment(&shot.lighting.surroundings.environment)?;
+        }
+        let data = FrameData::new(&self.gpu, &self.resources, self.environment.as_ref(), scene, shot)?;
         Ok(Prepared { motion, data, tonemap })
+    }
+
+    /// Makes what the environment is on the device, if the last frame had another one.
+    fn prepare_environment(&mut self, environment: &Arc<Environment>) -> Result<(), RenderError> {
+        if !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment)) {
+            // The old one goes first: two need not fit at once.
+            self.environment = None;
+            self.environment = Some(EnvironmentMaps::new(&self.gpu, environment)?);
+        }
+        Ok(())
     }
 
     /// Makes what the plan lists, and what moves in it. Until [`Self::keep`], nothing counts as made: a frame that failed
@@ -360,6 +389,7 @@ impl Renderer {
             mip_levels: 1,
             samples: 1,
             usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
+            is_cube: false,
         })?)
     }
 }

@@ -3,7 +3,7 @@
 use super::RenderError;
 use crate::asset::{Asset, Primitive, Topology};
 use crate::material::{Fur, Material};
-use crate::scene::{CameraChoice, Instance, Scene};
+use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
 use glam::Vec3;
 
 /// Most shells of a coat.
@@ -29,9 +29,10 @@ pub struct FrameOptions {
     pub tonemap: Tonemap,
     /// Stops; radiance is multiplied by 2^exposure.
     pub exposure_ev: f32,
-    /// Linear radiance of the surroundings, the same from everywhere, >= 0; `None`: enough to see by, and less of it where
-    /// the scene has lights.
-    pub ambient_radiance: Option<Vec3>,
+    /// Light from all around.
+    pub surroundings: Surroundings,
+    /// Lights beside those of the file, in world space.
+    pub lights: Vec<Light>,
     /// What is shown where nothing was drawn.
     pub background: Background,
     /// Format of the linear colour target.
@@ -61,7 +62,8 @@ impl Default for FrameOptions {
             variant: None,
             tonemap: Tonemap::Neutral,
             exposure_ev: 0.0,
-            ambient_radiance: None,
+            surroundings: Surroundings::default(),
+            lights: Vec::new(),
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
@@ -103,8 +105,12 @@ impl FrameOptions {
         if !(self.layer_scale > 0.0 && self.layer_scale.is_finite()) {
             return wrong("layer scale", format!("{} is not a finite number greater than 0", self.layer_scale));
         }
-        if self.ambient_radiance.is_some_and(|radiance| !(radiance.min_element() >= 0.0 && radiance.is_finite())) {
-            return wrong("ambient radiance", "must be finite and not negative".to_owned());
+        let Surroundings { strength, rotation_deg, .. } = self.surroundings;
+        if !(strength >= 0.0 && strength.is_finite() && rotation_deg.is_finite()) {
+            return wrong("surroundings", "strength and rotation must be finite, the strength not negative".to_owned());
+        }
+        if self.lights.iter().any(|light| !light.is_finite()) {
+            return wrong("lights", "places, directions and intensities must be finite".to_owned());
         }
         if !self.time_s.is_finite() || !self.exposure_ev.is_finite() {
             return wrong("time and exposure", "must be finite numbers".to_owned());
@@ -243,7 +249,7 @@ impl Tonemap {
 /// What is shown where nothing was drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Background {
-    /// The light's own surroundings: today the constant ambient radiance.
+    /// What is all around.
     Environment,
     /// Nothing: the picture has an alpha channel.
     Transparent,

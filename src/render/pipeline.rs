@@ -2,6 +2,7 @@
 //! asked. Two draws that need the same are equal here.
 
 use super::cloth::ClothShader;
+use super::lit::Lit;
 use super::map::{Map, fur_maps, surface_maps};
 use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap};
 use super::table::Table;
@@ -93,6 +94,7 @@ impl PipelineSpec {
         standard: &Standard,
         cloth: Option<&ClothShader>,
         primitive: &Primitive,
+        lit: Lit,
         options: &FrameOptions,
     ) -> Self {
         let vertices = &primitive.vertices;
@@ -138,9 +140,11 @@ impl PipelineSpec {
             ("COLOR", color),
         ];
         fragment_defines.extend(cloth.into_iter().flat_map(|cloth| cloth.defines).map(|define| (*define, true)));
+        fragment_defines.push(("OCCLUDED", lit.is_occluded() && !unlit));
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
+            constants.extend(lit.constants());
         }
         constants.extend(sampled.iter().map(|map| (map.constant, 1)));
         constants.extend(cloth.into_iter().flat_map(|cloth| &cloth.constants).filter(|(_, value)| *value != 0));
@@ -158,7 +162,7 @@ impl PipelineSpec {
     }
 
     /// The pipeline of the shells of `fur` over the surface `standard` of `primitive`.
-    pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, options: &FrameOptions) -> Self {
+    pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, lit: Lit, options: &FrameOptions) -> Self {
         let Shells { sampling, alpha, submission, order } = options.shells;
         let blend = fur.blend == Blend::Blend || order == ShellOrder::Blended;
         let all_maps = fur_maps(fur, standard);
@@ -183,9 +187,10 @@ impl PipelineSpec {
         constants.extend(maps.iter().map(|map| (map.constant, 1)));
         let choices = [("SAMPLING", sampling as u32), ("ALPHA", alpha as u32), ("SHELL_SOURCE", submission as u32)];
         constants.extend(choices.into_iter().filter(|(_, choice)| *choice != 0));
+        constants.extend(lit.constants());
         Self {
             vertex: permutation("fur.vert", &vertex_defines),
-            fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color)]),
+            fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color), ("OCCLUDED", lit.is_occluded())]),
             constants,
             topology: Topology::Triangles,
             blend,

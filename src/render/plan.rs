@@ -6,6 +6,7 @@
 
 use super::cloth::cloth_shader;
 use super::left_out::{LeftOut, left_out};
+use super::lit::Lit;
 use super::map::{Map, StandIn, fur_maps, surface_maps};
 use super::options::{FrameOptions, ShellSubmission};
 use super::pipeline::{ComputeSpec, PipelineSpec, shader};
@@ -14,7 +15,7 @@ use super::table::Table;
 use super::targets::Attachment;
 use crate::asset::{Asset, Primitive, Sampler, Topology};
 use crate::material::{AlphaMode, Fur, Standard};
-use crate::scene::{Instance, Scene, Side};
+use crate::scene::{Instance, Lighting, Scene, Side};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An image on the device: which one, and whether its bytes are sRGB-coded colour or data.
@@ -132,6 +133,8 @@ pub struct Plan {
     pub passes: Vec<Pass>,
     /// Images to draw into, beside the picture itself.
     pub attachments: Vec<Attachment>,
+    /// What the light of the frame takes.
+    pub lit: Lit,
     /// What stands in the scene, in the planned pose.
     pub instances: Vec<Instance>,
     /// Graphics pipelines, each once.
@@ -167,9 +170,10 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Decides what `options` of `scene` needs; `instances` are those of the pose to be shown.
-    pub fn new(scene: &Scene, instances: Vec<Instance>, options: &FrameOptions) -> Self {
-        let mut plan = Self { instances, attachments: Attachment::all(options), ..Self::default() };
+    /// Decides what `options` of `scene` needs; `instances` and `lighting` are those of the pose to be shown.
+    pub fn new(scene: &Scene, instances: Vec<Instance>, lighting: &Lighting, options: &FrameOptions) -> Self {
+        let lit = Lit::new(lighting, options);
+        let mut plan = Self { instances, lit, attachments: Attachment::all(options), ..Self::default() };
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
@@ -193,7 +197,7 @@ impl Plan {
         let surface = SurfaceUse { material, under_fur: fur.is_some() };
         let standard = scene.standard(surface.material, surface.under_fur);
         let cloth = scene.cloth(surface.material, surface.under_fur).map(cloth_shader);
-        let spec = PipelineSpec::surface(&standard, cloth.as_ref(), geometry, options);
+        let spec = PipelineSpec::surface(&standard, cloth.as_ref(), geometry, self.lit, options);
         self.add_textures(scene, &spec, &surface_maps(&standard, cloth.as_ref()));
         let tables = cloth.into_iter().flat_map(|cloth| cloth.tables);
         self.tables.extend(tables.filter(|table| spec.binds_table(table)).map(|table| (table.name, table)));
@@ -201,7 +205,7 @@ impl Plan {
 
         if let Some(fur) = fur {
             let layers = options.layers_of_coat(fur.layers);
-            let spec = PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, options);
+            let spec = PipelineSpec::fur(fur, &scene.materials()[material].standard, geometry, self.lit, options);
             self.add_textures(scene, &spec, &fur_maps(fur, &scene.materials()[material].standard));
             self.add_draw(scene, index, spec, DrawKind::Fur { material, layers }, options);
             if options.sways(fur) {
@@ -277,18 +281,23 @@ impl Plan {
         let Some(instance) = self.instances.iter().find(is_solid) else { return };
         let standard = scene.standard(instance.material, false);
         if !self.has_fur() {
-            let spec = PipelineSpec::fur(&Fur::default(), &standard, geometry(instance), options);
+            let spec = PipelineSpec::fur(&Fur::default(), &standard, geometry(instance), self.lit, options);
             self.pipelines.push(spec);
         }
         if !self.pipelines.iter().any(|spec| spec.blend) {
             let blending = Standard { alpha_mode: AlphaMode::Blend, ..standard.into_owned() };
-            self.pipelines.push(PipelineSpec::surface(&blending, None, geometry(instance), options));
+            self.pipelines.push(PipelineSpec::surface(&blending, None, geometry(instance), self.lit, options));
         }
     }
 
     /// Whether a coat is drawn, in whatever pass.
     pub fn has_fur(&self) -> bool {
         self.fur.iter().chain(&self.transparent).any(|draw| matches!(draw.kind, DrawKind::Fur { .. }))
+    }
+
+    /// Whether any surface or coat is lit.
+    pub fn is_lit(&self) -> bool {
+        self.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"))
     }
 
     /// How often the vertices and indices of (mesh, primitive) are on the device.

@@ -378,6 +378,7 @@ fn filled_image(
         mip_levels: levels.len() as u32,
         samples: 1,
         usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
+        is_cube: false,
     })?;
     let levels: Vec<&[u8]> = levels.iter().map(|level| &level[..]).collect();
     upload.image(&image, &levels);

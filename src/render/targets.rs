@@ -52,7 +52,7 @@ impl Attachment {
 
     fn create(self, gpu: &Gpu, size: [u32; 2]) -> Result<Image, GpuError> {
         let Self { name, format, samples, usage } = self;
-        gpu.image(&ImageDesc { name, size, format, mip_levels: 1, samples, usage })
+        gpu.image(&ImageDesc { name, size, format, mip_levels: 1, samples, usage, is_cube: false })
     }
 }
 

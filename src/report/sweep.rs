@@ -7,7 +7,8 @@ use super::{Effort, Progress, ReportError};
 use crate::gpu::Gpu;
 use crate::oracle::{self, OracleOptions};
 use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shells, Shot};
-use glam::DVec3;
+use crate::scene::Surroundings;
+use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -41,6 +42,8 @@ impl Recipe {
             layers: Some(self.layers),
             shells: self.shells,
             msaa: self.msaa,
+            // What the oracle knows.
+            surroundings: Surroundings::constant(Vec3::splat(0.05)),
             ..Default::default()
         };
         let cameras = cases.cameras(self.view, size[1]);
@@ -177,7 +180,7 @@ fn references(
             let scene_index = scene.asset().default_scene;
             let picture =
                 oracle::render(scene, scene_index, &shot.pose, &shot.camera, &shot.lighting, None, &oracle_options)?;
-            background = shot.lighting.ambient_radiance.as_dvec3();
+            background = shot.lighting.surroundings.constant_radiance().unwrap_or_default().as_dvec3();
             let frame = Radiance { size, pixels: picture.radiance };
             // The noise of a difference is that of both.
             noise += metric::noise(&frame, &picture.variance);

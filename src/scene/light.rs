@@ -7,21 +7,16 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::{Pose, nodes_of_scene};
+use super::{Pose, Surroundings, nodes_of_scene};
 use crate::asset::{self, Asset};
 
-/// Constant radiance from all directions beside the key light that stands in for missing lights.
-pub const AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS: f32 = 0.25;
-/// Constant radiance beside a file's own lights: just enough to keep unlit sides from going black.
-pub const AMBIENT_RADIANCE_WITH_FILE_LIGHTS: f32 = 0.05;
-
-/// All light of a scene until it has an environment.
+/// All light of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lighting {
     /// Punctual lights.
     pub lights: Vec<Light>,
-    /// Linear RGB radiance that arrives from every direction.
-    pub ambient_radiance: Vec3,
+    /// Light from all around.
+    pub surroundings: Surroundings,
 }
 
 /// Kind of a light.
@@ -65,8 +60,8 @@ pub struct Incident {
 }
 
 impl Light {
-    /// The stand-in for a scene without lights: high, over the right shoulder of a viewer in front (+Z), and strong
-    /// enough that a white Lambert face turned to it shows 1.
+    /// A key light for scenes that bring none: high, over the right shoulder of a viewer in front (+Z), and strong enough
+    /// that a white Lambert face turned to it shows 1.
     pub fn key() -> Self {
         Self {
             kind: LightKind::Directional,
@@ -75,6 +70,12 @@ impl Light {
             intensity: Vec3::splat(PI),
             range_m: None,
         }
+    }
+
+    /// Whether every number of it is.
+    pub fn is_finite(&self) -> bool {
+        let vectors = [self.position_in_world, self.direction_to_light_in_world, self.intensity];
+        vectors.iter().all(|vector| vector.is_finite()) && self.range_m.is_none_or(f32::is_finite)
     }
 
     /// The twin of the shaders' light loop: inverse square, window by range `saturate(1 - (d / range)^4)`, spot cone.
@@ -102,9 +103,9 @@ impl Light {
     }
 }
 
-/// The scene's own lights, or one key light without any; and the constant ambient that goes with them.
-pub fn lighting(asset: &Asset, scene: usize, pose: &Pose) -> Lighting {
-    let lights: Vec<Light> = nodes_of_scene(asset, scene)
+/// The scene's own lights.
+pub fn lights(asset: &Asset, scene: usize, pose: &Pose) -> Vec<Light> {
+    nodes_of_scene(asset, scene)
         .into_iter()
         .filter_map(|node| {
             let light = &asset.lights[asset.nodes[node].light?];
@@ -125,12 +126,7 @@ pub fn lighting(asset: &Asset, scene: usize, pose: &Pose) -> Lighting {
                 range_m,
             })
         })
-        .collect();
-    if lights.is_empty() {
-        Lighting { lights: vec![Light::key()], ambient_radiance: Vec3::splat(AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS) }
-    } else {
-        Lighting { lights, ambient_radiance: Vec3::splat(AMBIENT_RADIANCE_WITH_FILE_LIGHTS) }
-    }
+        .collect()
 }
 
 #[cfg(test)]
@@ -140,7 +136,7 @@ mod tests {
     use crate::scene::pose;
     use glam::Quat;
 
-    fn lit_by(kind: asset::LightKind) -> Lighting {
+    fn lit_by(kind: asset::LightKind) -> Vec<Light> {
         let transform = Transform::Trs {
             translation: Vec3::new(0.0, 3.0, 0.0),
             // The light's -Z turns to -Y: it shines down.
@@ -153,25 +149,24 @@ mod tests {
             lights: vec![asset::Light { name: None, color: Vec3::new(1.0, 0.5, 0.25), intensity: 18.0, kind }],
             ..Asset::default()
         };
-        lighting(&asset, 0, &pose(&asset, None, 0.0))
+        lights(&asset, 0, &pose(&asset, None, 0.0))
     }
 
     #[test]
     fn a_point_light_falls_off_by_the_square_and_ends_at_its_range() {
-        let Lighting { lights, ambient_radiance } = lit_by(asset::LightKind::Point { range_m: None });
-        assert_eq!(ambient_radiance, Vec3::splat(AMBIENT_RADIANCE_WITH_FILE_LIGHTS));
+        let lights = lit_by(asset::LightKind::Point { range_m: None });
         let incident = lights[0].incident_at(Vec3::ZERO);
         assert!((incident.irradiance - Vec3::new(2.0, 1.0, 0.5)).length() < 1e-6);
         assert_eq!(incident.direction_to_light_in_world, Vec3::Y);
         let short = lit_by(asset::LightKind::Point { range_m: Some(3.0) });
-        assert_eq!(short.lights[0].incident_at(Vec3::ZERO).irradiance, Vec3::ZERO);
-        assert!(short.lights[0].incident_at(Vec3::Y * 3.0).irradiance.is_finite());
+        assert_eq!(short[0].incident_at(Vec3::ZERO).irradiance, Vec3::ZERO);
+        assert!(short[0].incident_at(Vec3::Y * 3.0).irradiance.is_finite());
     }
 
     #[test]
     fn a_spot_is_full_inside_its_inner_cone_and_dark_outside_the_outer_one() {
         let spot = asset::LightKind::Spot { range_m: None, inner_angle: 0.2, outer_angle: 0.4 };
-        let light = &lit_by(spot).lights[0];
+        let light = &lit_by(spot)[0];
         let at = |angle: f32| light.incident_at(Vec3::new(3.0 * angle.tan(), 0.0, 0.0)).irradiance.x;
         let unwindowed = |angle: f32| 18.0 * (angle.cos() / 3.0).powi(2);
         assert!((at(0.0) - unwindowed(0.0)).abs() < 1e-5);
@@ -182,19 +177,16 @@ mod tests {
 
     #[test]
     fn directional_lights_ignore_place_and_scale() {
-        let light = &lit_by(asset::LightKind::Directional).lights[0];
+        let light = &lit_by(asset::LightKind::Directional)[0];
         let incident = light.incident_at(Vec3::splat(100.0));
         assert!((incident.direction_to_light_in_world - Vec3::Y).length() < 1e-6);
         assert_eq!(incident.irradiance, Vec3::new(18.0, 9.0, 4.5));
     }
 
     #[test]
-    fn without_lights_there_is_one_key_light_that_shows_white_as_one() {
-        let lighting = lighting(&Asset::default(), 0, &Pose::default());
-        let [key] = &lighting.lights[..] else { panic!("one light") };
-        let incident = key.incident_at(Vec3::ZERO);
+    fn a_key_light_shows_white_as_one() {
+        let incident = Light::key().incident_at(Vec3::ZERO);
         assert_eq!(incident.irradiance / PI, Vec3::ONE);
         assert!((incident.direction_to_light_in_world.length() - 1.0).abs() < 1e-6);
-        assert_eq!(lighting.ambient_radiance, Vec3::splat(AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS));
     }
 }

@@ -17,6 +17,7 @@ mod lint;
 mod load;
 mod shadow;
 mod shell;
+mod surroundings;
 
 pub use animation::{Pose, pose};
 pub use bounds::{object_scale, world_hull};
@@ -26,11 +27,9 @@ pub use deform::deform;
 pub use error::SceneError;
 pub use facing::{Patches, Side};
 pub use instance::{Instance, instances, joint_matrices, nodes_of_scene};
-pub use light::{
-    AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Incident, Light, LightKind, Lighting,
-    lighting,
-};
+pub use light::{Incident, Light, LightKind, Lighting, lights};
 pub use light_reach::LightLists;
 pub use load::{Scene, Size};
 pub use shadow::{MAX_SHADOW_MAPS, SHADOW_BORDER_PX, ShadowMap, ShadowMaps, ball, shadow_maps};
 pub use shell::{shell_directions, shell_directions_of_mesh};
+pub use surroundings::Surroundings;

@@ -69,6 +69,8 @@ pub enum BindingKind {
     },
     /// `texture2D` and the like, without its sampler.
     Texture,
+    /// `textureCube`, without its sampler.
+    Cube,
     /// `sampler`.
     Sampler,
     /// Storage image.

@@ -10,7 +10,7 @@ use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Primitive};
 use vair::material::{Cloth, Form, ImageName, TextureSource, Value, Velvet};
 use vair::render::{FrameOptions, Picture, Shot};
-use vair::scene::Scene;
+use vair::scene::{Scene, Surroundings};
 use vair::shader::table;
 
 struct NoTextures;
@@ -83,7 +83,8 @@ fn size_of(dresses: &[Cloth]) -> [u32; 2] {
 
 /// A picture of all, with that much light from everywhere.
 fn shown(device: &mut Headless, dresses: &[Cloth], intensity: Vec3, ambient: f32) -> Picture {
-    let frame = FrameOptions { ambient_radiance: Some(Vec3::splat(ambient)), ..options(size_of(dresses), 1) };
+    let frame =
+        FrameOptions { surroundings: Surroundings::constant(Vec3::splat(ambient)), ..options(size_of(dresses), 1) };
     device.picture(&balls(dresses, &sphere(0.45, 8), intensity), &frame)
 }
 

@@ -7,9 +7,10 @@ use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::{LightKind, Material, Transform};
 use vair::material::reference::albedo::Fit;
 use vair::material::reference::standard::{Lobes, Surface};
-use vair::scene::{AMBIENT_RADIANCE_WITH_FILE_LIGHTS, AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS, Light};
+use vair::render::FrameOptions;
+use vair::scene::Light;
 
-pub const AMBIENT: f64 = AMBIENT_RADIANCE_WITH_FILE_LIGHTS as f64;
+pub const AMBIENT: f64 = crate::stage::AMBIENT as f64;
 
 /// Radiance of two lobes towards `v` under one directional light and the ambient, by the twins; directions in the tangent
 /// frame.
@@ -105,15 +106,15 @@ fn one_quad(material: Material, transform: Transform, to_light: Option<Vec3>) ->
 }
 
 #[test]
-fn without_lights_a_key_light_and_its_ambient_shine() {
+fn lights_of_the_frame_shine_beside_those_of_the_file() {
     let material = Material { base_color: Vec4::new(0.7, 0.5, 0.3, 1.0), roughness: 0.6, ..plain() };
     let key = Light::key();
     let surface = surface_of(&material);
-    let ambient = f64::from(AMBIENT_RADIANCE_WITHOUT_FILE_LIGHTS);
     let l = key.direction_to_light_in_world.as_dvec3();
-    let expected = radiance(surface, ambient, DVec3::Z, DVec3::Z, l, key.intensity.as_dvec3());
+    let expected = radiance(surface, AMBIENT, DVec3::Z, DVec3::Z, l, key.intensity.as_dvec3());
     headless(|device| {
-        let picture = device.picture(&one_quad(material, at(Vec3::ZERO), None).lit_scene(), &options([4, 4], 1));
+        let frame = FrameOptions { lights: vec![Light::key()], ..options([4, 4], 1) };
+        let picture = device.picture(&one_quad(material, at(Vec3::ZERO), None).scene(), &frame);
         all_hold([close("key light", picture.radiance(2, 2), expected)]);
     });
 }

@@ -442,6 +442,7 @@ fn recorded_frames_follow_each_other_as_rendered_ones_do() {
                 mip_levels: 1,
                 samples: 1,
                 usage: vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC,
+                is_cube: false,
             })
             .unwrap();
         // All at once, and nothing is waited for in between.

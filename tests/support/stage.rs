@@ -6,7 +6,7 @@ use vair::asset::{
     TextureRef, Transform, Vertices,
 };
 use vair::render::{FrameOptions, Tonemap};
-use vair::scene::{CameraChoice, Scene};
+use vair::scene::{CameraChoice, Scene, Surroundings};
 
 /// Depth of the front camera before the XY plane, metres; it sees as far behind it.
 const FRONT_M: f32 = 50.0;
@@ -23,8 +23,8 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Seen by an orthographic camera along -Z that shows `half_m` above and below the origin, and lit by the ambient
-    /// alone: its only light is dark.
+    /// Seen by an orthographic camera along -Z that shows `half_m` above and below the origin, and lit by its surroundings
+    /// alone.
     pub fn front(half_m: f32) -> Self {
         let mut stage = Self::default();
         stage.parallel_camera(half_m, Vec3::Z, Vec3::Y);
@@ -90,14 +90,6 @@ impl Stage {
 
     /// The scene, all nodes without a parent being its roots.
     pub fn scene(mut self) -> Scene {
-        if self.asset.lights.is_empty() {
-            self.light(LightKind::Directional, Vec3::ZERO, Vec3::ZERO, Vec3::Z);
-        }
-        self.lit_scene()
-    }
-
-    /// The same without the dark light: a stage without lights gets the renderer's own.
-    pub fn lit_scene(mut self) -> Scene {
         let children: Vec<usize> = self.asset.nodes.iter().flat_map(|node| node.children.clone()).collect();
         let roots = (0..self.asset.nodes.len()).filter(|node| !children.contains(node)).collect();
         self.asset.scenes.push(AssetScene { name: None, roots });
@@ -112,9 +104,14 @@ pub fn camera_axes(backwards: Vec3, up: Vec3) -> Mat3 {
     Mat3::from_cols(right, backwards.cross(right), backwards)
 }
 
+/// Radiance from everywhere on every stage.
+pub const AMBIENT: f32 = 0.05;
+
 /// A picture of the first camera, linear and unexposed.
 pub fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
-    FrameOptions { size, msaa, camera: CameraChoice::Index(0), tonemap: Tonemap::None, ..FrameOptions::default() }
+    let surroundings = Surroundings::constant(Vec3::splat(AMBIENT));
+    let camera = CameraChoice::Index(0);
+    FrameOptions { size, msaa, camera, tonemap: Tonemap::None, surroundings, ..FrameOptions::default() }
 }
 
 /// A rectangle in the XY plane that faces +Z, uv (0, 0) at its top left.

@@ -35,7 +35,7 @@ pub fn record(encoder: &mut Encoder, frame: &Frame, display: &Display) {
     let options = frame.options;
     let draw = TonemapDraw {
         background: match options.background {
-            Background::Environment => frame.shot.lighting.ambient_radiance,
+            Background::Environment => frame.shot.lighting.surroundings.constant_radiance().unwrap_or_default(),
             Background::Transparent => Vec3::ZERO,
             Background::Color(color) => color,
         }
