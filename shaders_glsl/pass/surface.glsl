@@ -68,7 +68,9 @@ layout(location = 3) in vec4 tangent_in_world;
 layout(location = 4) in vec4 vertex_color;
 #endif
 
+#ifndef SHADOW
 layout(location = 0) out vec4 radiance;
+#endif
 
 // Linear RGBA before coverage.
 vec4 surface_color() {
@@ -143,6 +145,15 @@ float surface_opacity(float alpha) {
 }
 
 #ifndef UNLIT
+#ifdef OCCLUDED
+ShadowReceiver shadow_receiver() {
+    ShadowReceiver receiver;
+    receiver.normal_in_world = direction_or(normal_in_world, frame.view_in_world);
+    receiver.depth_m = 0.0;
+    return receiver;
+}
+#endif
+
 // What the maps say of a fragment. The tangent frame is orthonormal; the eye is above the horizon.
 struct SurfaceFragment {
     vec3 base_color;           // linear, [0, 1]
@@ -202,12 +213,14 @@ SurfaceFragment surface_fragment(vec4 color) {
 
 #endif
 
+#ifndef SHADOW
 // All that a surface shows: linear radiance, premultiplied by its opacity, and the share of what lies behind that it lets
 // through, by channel.
 void surface_output(vec3 premultiplied, vec3 transmittance) {
     float opacity = 1.0 - (transmittance.r + transmittance.g + transmittance.b) * (1.0 / 3.0);
     radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
 }
+#endif
 
 #ifndef UNLIT
 // `reflected` is what the lights and the surroundings give.

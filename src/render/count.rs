@@ -6,6 +6,7 @@
 
 use super::frame_data::FrameData;
 use super::pass::{Frame, draws};
+use super::options::Shadows;
 use super::plan::Pass;
 use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
 use crate::gpu::{BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload};
@@ -68,13 +69,16 @@ impl Renderer {
                 "counting needs fragment shaders that write memory, and room for every sample's depth".to_owned();
             return Err(GpuError::Unsupported { name: "fragment counts".to_owned(), problem }.into());
         }
+        // Shadows cast no fragments of the picture.
+        let without = Shadows { are_cast: false, ..options.shadows };
+        let options = &FrameOptions { shadows: without, ..options.clone() };
         let mut shot = Shot::new(scene, options)?;
         for spec in &mut shot.plan.pipelines {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, None, scene, &shot)?;
-        let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data };
+        let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot)?;
+        let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data, atlas: None };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
         let target = self.gpu.image(&ImageDesc {
@@ -95,7 +99,7 @@ impl Renderer {
                 RenderPassDesc { name: pass.name(), size: options.size, color: &color, depth: None, sampled: &[] };
             encoder.render_pass(&desc, |render_pass| {
                 render_pass.bind(3, &counter.group);
-                draws::record(render_pass, list, &frame);
+                draws::record(render_pass, list, &frame, 0);
             });
         }
         for counter in &counters {

@@ -1,15 +1,18 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, Moving, deform, draws, order, sway, tonemap};
+use super::pass::{Frame, Moving, deform, draws, order, shadow, sway, tonemap};
 use super::plan::{Draw, Pass};
 use super::targets::Targets;
-use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
+use crate::gpu::{ColorTarget, DepthTarget, Encoder, Image, Load, RenderPassDesc};
 use std::borrow::Cow;
 
 /// Records all passes of `frame`.
 pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, display: &tonemap::Display) {
     record_motion(encoder, &frame.moving());
+    if let Some(atlas) = frame.atlas {
+        shadow::record(encoder, frame, atlas);
+    }
     let lists = draw_lists(frame);
     for (index, (pass, list)) in lists.iter().enumerate() {
         record_draws(encoder, frame, targets, *pass, list, index + 1 == lists.len());
@@ -55,8 +58,9 @@ fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: P
         load: if is_first { Load::Clear([0.0; 4]) } else { Load::Keep },
         store: !is_last,
     });
-    let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &[] };
-    encoder.render_pass(&desc, |pass| draws::record(pass, list, frame));
+    let sampled: Vec<&Image> = frame.atlas.iter().flat_map(|atlas| &atlas.images).collect();
+    let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &sampled };
+    encoder.render_pass(&desc, |pass| draws::record(pass, list, frame, 0));
 }
 
 /// Coverage starts at 0. A format without alpha cannot tell what was drawn: there the background is light.

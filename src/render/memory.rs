@@ -66,6 +66,9 @@ impl Plan {
         for attachment in &self.attachments {
             add(attachment.name.to_owned(), attachment.bytes(options.size));
         }
+        for &(name, format) in self.shadows.images() {
+            add(name.to_owned(), self.shadows.bytes(format));
+        }
         add(PICTURE_NAME.to_owned(), format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0));
         owners
     }

@@ -35,6 +35,12 @@ impl LightLists {
         lists
     }
 
+    /// The lights of an object.
+    pub fn of(&self, object: usize) -> &[usize] {
+        let range = &self.ranges[object];
+        &self.lights[range.start as usize..range.end as usize]
+    }
+
     /// Whether a light reaches any object.
     pub fn is_used(&self, light: usize) -> bool {
         self.lights.contains(&light)

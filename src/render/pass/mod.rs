@@ -3,6 +3,7 @@
 pub mod deform;
 pub mod draws;
 pub mod order;
+pub mod shadow;
 pub mod sway;
 pub mod tonemap;
 
@@ -11,6 +12,7 @@ use super::frame_data::FrameData;
 use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
+use super::shadow::ShadowAtlas;
 use crate::scene::Scene;
 
 /// What the passes that move vertices share.
@@ -47,4 +49,6 @@ pub struct Frame<'a> {
     pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
+    /// Shadow maps, where lights cast any.
+    pub atlas: Option<&'a ShadowAtlas>,
 }
