@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
-use vair::render::{Background, FrameOptions, HdrFormat, Shells, Tonemap};
+use vair::render::{Background, FrameOptions, HdrFormat, Shadows, Shells, Tonemap};
 use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
 /// What to show.
@@ -77,6 +77,9 @@ pub struct SceneArguments {
     /// Exposure in stops.
     #[arg(long, value_name = "EV", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
     exposure: f32,
+    /// Whether lights cast shadows.
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    shadows: Switch,
     /// What stands behind: env, transparent, or a colour in sRGB.
     #[arg(long, value_name = "env/transparent/R,G,B", default_value = "env", value_parser = values::background)]
     background: Background,
@@ -86,6 +89,12 @@ pub struct SceneArguments {
 enum HdrChoice {
     Rgba16f,
     B10g11r11,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -162,6 +171,7 @@ impl SceneArguments {
             exposure_ev: self.exposure,
             surroundings: Surroundings::default(),
             lights: Vec::new(),
+            shadows: Shadows { are_cast: self.shadows == Switch::On, ..Shadows::default() },
             background: self.background,
             hdr_format: match self.hdr_format {
                 HdrChoice::Rgba16f => HdrFormat::Rgba16f,

@@ -5,8 +5,8 @@
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
 use super::frame_data::FrameData;
-use super::pass::{Frame, draws};
 use super::options::Shadows;
+use super::pass::{Frame, draws};
 use super::plan::Pass;
 use super::{FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
 use crate::gpu::{BindGroup, Buffer, ColorTarget, GpuError, ImageDesc, Load, Memory, RenderPassDesc, Resource, Upload};
@@ -78,7 +78,15 @@ impl Renderer {
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
         let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot)?;
-        let frame = Frame { scene, shot: &shot, options, resources: &self.resources, motion: &motion, data: &data, atlas: None };
+        let frame = Frame {
+            scene,
+            shot: &shot,
+            options,
+            resources: &self.resources,
+            motion: &motion,
+            data: &data,
+            atlas: None,
+        };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
         let target = self.gpu.image(&ImageDesc {

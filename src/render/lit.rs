@@ -26,8 +26,8 @@ impl Lit {
         let shadows = options.shadows.are_cast && (options.everything || !maps.maps.is_empty());
         let is_translucent = |instance: &Instance| {
             let material = &scene.materials()[instance.material];
-            let is_solid = scene.asset().meshes[instance.mesh].primitives[instance.primitive].topology
-                == Topology::Triangles;
+            let is_solid =
+                scene.asset().meshes[instance.mesh].primitives[instance.primitive].topology == Topology::Triangles;
             let blends = material.standard.alpha_mode == AlphaMode::Blend
                 || material.cloth.as_ref().is_some_and(|cloth| cloth_shader(cloth).blends);
             is_solid && (material.fur.is_some() || blends)

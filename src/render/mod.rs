@@ -23,6 +23,7 @@ mod pipeline;
 mod plan;
 mod report;
 mod resources;
+mod shadow;
 mod stream;
 mod sway;
 mod table;
@@ -35,20 +36,21 @@ pub use left_out::LeftOut;
 pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
 pub use options::{
-    Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
-    Tonemap,
+    Background, FrameOptions, HdrFormat, MAX_LAYERS, SHADOW_FILTERS_PX, SHADOW_RESOLUTIONS_PX, Shadows, ShellAlpha,
+    ShellOrder, ShellSampling, ShellSubmission, Shells, Tonemap,
 };
 pub use picture::{Picture, PictureFormat};
-pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
+pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec, Target};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
 pub use report::{CoatReport, CpuPhases, FrameReport};
+pub use shadow::ShadowPlan;
 pub use stream::Stream;
 pub use table::Table;
 pub use targets::Attachment;
 
 use crate::asset::Environment;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
-use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
+use crate::scene::{self, Camera, LightLists, Lighting, Pose, Scene, SceneError, ShadowMaps};
 use ash::vk;
 use environment::EnvironmentMaps;
 use frame_data::FrameData;
@@ -58,6 +60,7 @@ use motion::Motion;
 use pass::tonemap::Display;
 use pass::{Frame, Moving};
 use resources::Resources;
+use shadow::ShadowAtlas;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -144,12 +147,17 @@ impl Shot {
         let mut lights = scene::lights(asset, scene_index, &pose);
         lights.extend(options.lights.iter().cloned());
         let lighting = Lighting { lights, surroundings: options.surroundings.clone() };
-        Ok(Self {
-            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
-            plan: Plan::new(scene, instances, &lighting, options),
-            lighting,
-            pose,
-        })
+        let camera = scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?;
+        let ball = scene::ball(&shown);
+        let reach = LightLists::new(&lighting.lights, instances.iter().map(|instance| scene.ball(instance, ball)));
+        let maps = match ball.filter(|_| options.shadows.are_cast) {
+            Some(ball) => {
+                let casts = |light| reach.is_used(light);
+                scene::shadow_maps(&lighting.lights, casts, ball, &camera, options.shadows.resolution_px)
+            }
+            None => ShadowMaps::default(),
+        };
+        Ok(Self { camera, plan: Plan::new(scene, instances, reach, maps, options), lighting, pose })
     }
 }
 
@@ -170,6 +178,8 @@ pub struct Renderer {
     scene: Option<u64>,
     /// Light from all around, of the last frame.
     environment: Option<EnvironmentMaps>,
+    /// Shadow maps, of the last frame.
+    atlas: Option<ShadowAtlas>,
     /// Strands that lag behind.
     sway: SwayMemory,
 }
@@ -196,6 +206,7 @@ impl Renderer {
             picture: None,
             scene: None,
             environment: None,
+            atlas: None,
             sway: SwayMemory::default(),
         })
     }
@@ -330,8 +341,22 @@ impl Renderer {
         if shot.plan.is_lit() {
             self.prepare_environment(&shot.lighting.surroundings.environment)?;
         }
-        let data = FrameData::new(&self.gpu, &self.resources, self.environment.as_ref(), scene, shot)?;
+        self.prepare_atlas(&shot.plan.shadows)?;
+        let (environment, atlas) = (self.environment.as_ref(), self.atlas.as_ref());
+        let data = FrameData::new(&self.gpu, &self.resources, environment, atlas, scene, shot)?;
         Ok(Prepared { motion, data, tonemap })
+    }
+
+    /// Makes the images of the shadow maps, if the last frame had others.
+    fn prepare_atlas(&mut self, plan: &ShadowPlan) -> Result<(), RenderError> {
+        if !self.atlas.as_ref().is_some_and(|atlas| atlas.fits(plan)) {
+            // The old ones go first: two need not fit at once.
+            self.atlas = None;
+            if plan.is_bound {
+                self.atlas = Some(ShadowAtlas::new(&self.gpu, plan)?);
+            }
+        }
+        Ok(())
     }
 
     /// Makes what the environment is on the device, if the last frame had another one.
@@ -371,7 +396,7 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
         let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
-        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data };
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, atlas: self.atlas.as_ref() };
         frame::record(encoder, &frame, targets, &display);
         self.keep(scene, options);
         Ok(())

@@ -401,7 +401,7 @@ impl ComputeSpec {
 }
 
 /// Whether a specialization constant is one of these shaders'.
-fn is_known_by(shaders: [&str; 2]) -> impl Fn(&str) -> bool {
+fn is_known_by(shaders: [&str; 2]) -> impl Fn(&str) -> bool + use<> {
     let stages = shaders.map(shader);
     move |name| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name))
 }

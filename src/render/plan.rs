@@ -214,11 +214,14 @@ impl Plan {
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
-        if lit.shadows {
-            plan.add_casters();
-        }
         if options.everything {
             plan.add_spare_pipelines(scene, options);
+        }
+        if !plan.is_lit() {
+            // Nothing receives a shadow.
+            (plan.lit, plan.shadows) = Default::default();
+        } else if lit.shadows {
+            plan.add_casters();
         }
         plan.add_passes(options);
         plan.left_out = left_out(&plan, scene, options);

@@ -163,9 +163,8 @@ impl ShadowAtlas {
 
     /// Whether they serve this plan, too.
     pub fn fits(&self, plan: &ShadowPlan) -> bool {
-        let is_same = |image: &Image, (_, format): &(_, vk::Format)| {
-            image.size() == plan.size() && image.format() == *format
-        };
+        let is_same =
+            |image: &Image, (_, format): &(_, vk::Format)| image.size() == plan.size() && image.format() == *format;
         self.images.len() == plan.images().len()
             && self.images.iter().zip(plan.images()).all(|(image, wanted)| is_same(image, wanted))
     }
@@ -175,8 +174,9 @@ impl ShadowAtlas {
     pub fn named(&self) -> impl Iterator<Item = (&'static str, &Image)> {
         const NAMES: [&str; 5] =
             ["shadow_map", "shadow_front_map", "shadow_back_map", "shadow_layer_map", "shadow_total_map"];
-        NAMES.into_iter().enumerate().filter_map(|(index, name)| {
-            Some((name, self.images.get(index).or(self.images.first())?))
-        })
+        NAMES
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, name)| Some((name, self.images.get(index).or(self.images.first())?)))
     }
 }

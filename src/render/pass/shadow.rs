@@ -38,8 +38,7 @@ fn record_pass(encoder: &mut Encoder, frame: &Frame, atlas: &ShadowAtlas, pass: 
     let color: Vec<_> = atlas.images.get(colors).into_iter().flatten().map(target).collect();
     let sampled: Vec<_> = atlas.images.get(sampled).into_iter().flatten().collect();
     let plan = &frame.shot.plan;
-    let desc =
-        RenderPassDesc { name: pass.name(), size: plan.shadows.size(), color: &color, depth, sampled: &sampled };
+    let desc = RenderPassDesc { name: pass.name(), size: plan.shadows.size(), color: &color, depth, sampled: &sampled };
     encoder.render_pass(&desc, |pass| {
         for (index, map) in plan.shadows.maps.iter().enumerate() {
             pass.viewport(plan.shadows.origin(index), [plan.shadows.resolution_px; 2]);
