@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 // Gauze that casts a shadow: light passes between its threads, and what they scatter forwards goes on in their colour.
 #define UNLIT
 #define SHADOW

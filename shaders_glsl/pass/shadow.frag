@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 // A surface that casts a shadow: whole, by its mask, or by its opacity.
 #define UNLIT
 #define SHADOW

@@ -6,7 +6,6 @@
 #ifdef LAYERS
 layout(set = 0, binding = 8) uniform texture2D shadow_front_map;
 layout(set = 0, binding = 9) uniform texture2D shadow_back_map;
-layout(set = 0, binding = 14) uniform sampler shadow_sampler;
 layout(location = 0) out vec4 layer_depths; // optical depth up to the knots, summed over all casters
 layout(location = 1) out vec4 total_depth;  // optical depth by channel, and the mean
 #endif
@@ -18,8 +17,8 @@ void shadow_write(vec3 transmittance) {
     if (mean <= 0.0) { discard; }
 #ifdef LAYERS
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    float front = texelFetch(sampler2D(shadow_front_map, shadow_sampler), texel, 0).r;
-    float back = texelFetch(sampler2D(shadow_back_map, shadow_sampler), texel, 0).r;
+    float front = texelFetch(shadow_front_map, texel, 0).r;
+    float back = texelFetch(shadow_back_map, texel, 0).r;
     layer_depths = shadow_layers(mean, shadow_place(gl_FragCoord.z, front, back));
     total_depth = vec4(depth, mean);
 #endif

@@ -116,7 +116,7 @@ impl List {
             let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
             // A map stands for its sampler, too.
             for (_, _, binding) in all.difference(&bound).filter(|(.., name)| !name.ends_with("_sampler")) {
-                by_reason.entry(reason_of_binding(plan, scene, name, binding)).or_default().push(binding);
+                by_reason.entry(reason_of_binding(plan, scene, name, binding, options)).or_default().push(binding);
             }
             for (why, bindings) in by_reason {
                 self.add(format!("{name} bindings {}", bindings.join(", ")), why);
@@ -151,8 +151,15 @@ impl List {
     }
 }
 
-fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str) -> &'static str {
+fn reason_of_binding(
+    plan: &Plan,
+    scene: &Scene,
+    family: &str,
+    binding: &str,
+    options: &FrameOptions,
+) -> &'static str {
     match (binding.strip_suffix("_map"), binding) {
+        _ if binding.to_lowercase().starts_with("shadow") => reason_of_no_shadows(plan, options),
         (Some(stem), _) if has_map(plan, scene, family, stem) => {
             "the mesh has no coordinates for the map, or nothing lights it"
         }
