@@ -378,7 +378,9 @@ fn the_densest_stack_of_shells_comes_near() {
     let exact = view.oracle(OracleOptions { size, samples: 16, seed: 5 }).unwrap();
     let shells = Shells { sampling: ShellSampling::Slab, alpha: ShellAlpha::Step, ..Shells::default() };
     let camera = view.choice.clone();
-    let options = FrameOptions { size, camera, layers: Some(256), shells, msaa: 1, ..FrameOptions::default() };
+    let surroundings = view.lighting.surroundings.clone();
+    let options =
+        FrameOptions { size, camera, layers: Some(256), shells, msaa: 1, surroundings, ..FrameOptions::default() };
     headless::headless(|device| {
         let picture = device.picture(&view.scene, &options);
         let pixels = || exact.radiance.iter().zip(&picture.radiance).map(|(a, b)| [*a, b.as_dvec4()]);

@@ -1,4 +1,4 @@
-//! Files to plain data: glTF 2.0 (.gltf and .glb) and the pictures they use.
+//! Files to plain data: glTF 2.0 (.gltf and .glb) and the pictures they use; environments (.hdr and .exr).
 //!
 //! [`load`] trusts nothing in a file. It works in this order, and each step sees only what the one
 //! before it has checked:
@@ -43,7 +43,7 @@ mod topology;
 mod uri;
 
 pub use self::gltf::{DEFAULT_MEMORY_LIMIT_BYTES, LoadOptions, load};
-pub use environment::Environment;
+pub use environment::{Environment, MAX_ENVIRONMENT_SIZE, MAX_RADIANCE};
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use material_extension::{

@@ -5,6 +5,7 @@
 
 use super::calls::Device;
 use super::choose::DeviceInfo;
+use crate::math::fnv1a;
 use ash::vk;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -89,7 +90,7 @@ fn write(path: &Path, data: &[u8]) -> std::io::Result<()> {
 fn wrap(data: &[u8]) -> Vec<u8> {
     let mut file = Vec::with_capacity(WRAPPER_BYTES + data.len());
     file.extend_from_slice(MAGIC);
-    file.extend_from_slice(&checksum(data).to_le_bytes());
+    file.extend_from_slice(&fnv1a([data]).to_le_bytes());
     file.extend_from_slice(data);
     file
 }
@@ -97,7 +98,7 @@ fn wrap(data: &[u8]) -> Vec<u8> {
 fn unwrap(file: &[u8]) -> Option<&[u8]> {
     let (magic, rest) = file.split_first_chunk::<8>()?;
     let (sum, data) = rest.split_first_chunk::<8>()?;
-    (magic == MAGIC && u64::from_le_bytes(*sum) == checksum(data)).then_some(data)
+    (magic == MAGIC && u64::from_le_bytes(*sum) == fnv1a([data])).then_some(data)
 }
 
 fn has_header_of(data: &[u8], info: &DeviceInfo) -> bool {
@@ -108,11 +109,6 @@ fn has_header_of(data: &[u8], info: &DeviceInfo) -> bool {
         && is_word(2, info.vendor_id)
         && is_word(3, info.device_id)
         && data.get(16..HEADER_BYTES) == Some(info.pipeline_cache_uuid.as_slice())
-}
-
-/// FNV-1a, 64 bits (Fowler, Noll and Vo 1991).
-fn checksum(data: &[u8]) -> u64 {
-    data.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]

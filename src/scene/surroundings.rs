@@ -28,8 +28,7 @@ impl Surroundings {
 
     /// The embedded studio.
     pub fn studio() -> Self {
-        // TODO(env): Environment::studio()
-        static STUDIO: LazyLock<Arc<Environment>> = LazyLock::new(|| Arc::new(Environment::constant(Vec3::splat(0.5))));
+        static STUDIO: LazyLock<Arc<Environment>> = LazyLock::new(|| Arc::new(Environment::studio()));
         Self::new(STUDIO.clone())
     }
 

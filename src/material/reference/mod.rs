@@ -10,6 +10,7 @@ pub mod classic;
 pub mod color;
 pub mod coverage;
 pub mod direction;
+pub mod environment;
 pub mod film;
 pub mod fuzz;
 pub mod gauze;

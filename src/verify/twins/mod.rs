@@ -6,6 +6,7 @@ mod color;
 mod cotton;
 mod coverage;
 mod direction;
+mod environment;
 mod film;
 mod fuzz;
 mod gauze;
@@ -37,6 +38,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
     gauze::TWINS,

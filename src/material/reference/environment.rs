@@ -1,0 +1,272 @@
+//! Twin of `environment.glsl`, and the quadratures that the compute shaders of environments approach.
+//!
+//! Ramamoorthi & Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps" (harmonics); Karis 2013,
+//! "Real Shading in Unreal Engine 4" (prefiltered radiance); Lagarde & de Rousiers 2014, "Moving Frostbite to Physically
+//! Based Rendering" (a lobe's dominant direction); Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+//! Caps".
+
+use super::ggx;
+use super::sheen::Lobe;
+use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// Bands of the harmonics.
+pub const BANDS: usize = 5;
+/// Sheets of the table of lobes: GGX and three models of sheen.
+pub const SHEETS: usize = 4;
+
+/// A world's direction in an environment that is turned by `radians` about +Y.
+pub fn from_world(direction: DVec3, radians: f64) -> DVec3 {
+    DMat3::from_rotation_y(-radians) * direction
+}
+
+/// Column and row, in [0, 1], of a direction in an equirectangular picture.
+pub fn uv(direction: DVec3) -> DVec2 {
+    let polar = direction.x.hypot(direction.z).atan2(direction.y);
+    DVec2::new(direction.z.atan2(direction.x) / TAU + 0.5, polar / PI)
+}
+
+/// The direction at a place, in [-1, 1], of a cube's face (Vulkan 1.3, "Cube Map Face Selection and Transformations").
+pub fn face_direction(face: usize, place: DVec2) -> DVec3 {
+    // Major axis, axis of the column, axis of the row.
+    let [major, s, t] = [
+        [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y],
+        [DVec3::NEG_X, DVec3::Z, DVec3::NEG_Y],
+        [DVec3::Y, DVec3::X, DVec3::Z],
+        [DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z],
+        [DVec3::Z, DVec3::X, DVec3::NEG_Y],
+        [DVec3::NEG_Z, DVec3::NEG_X, DVec3::NEG_Y],
+    ][face];
+    (major + s * place.x + t * place.y).normalize()
+}
+
+/// The inverse: the face of the largest component, x before y before z, and the place there.
+pub fn face_place(direction: DVec3) -> (usize, DVec2) {
+    let size = direction.abs();
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    let face = 2 * axis + usize::from(direction[axis] <= 0.0);
+    let d = direction / size[axis];
+    let place = match face {
+        0 => (-d.z, -d.y),
+        1 => (d.z, -d.y),
+        2 => (d.x, d.z),
+        3 => (d.x, -d.z),
+        4 => (d.x, -d.y),
+        _ => (-d.x, -d.y),
+    };
+    (face, place.into())
+}
+
+/// Real spherical harmonic without the Condon-Shortley sign, by the associated Legendre recurrence; polar axis z.
+pub fn harmonic(band: usize, order: i32, direction: DVec3) -> f64 {
+    let m = order.unsigned_abs() as usize;
+    // P_m^m without its factor sin^m, which the Cartesian cosines and sines below carry.
+    let double_factorial = |n: usize| (1..=n).rev().step_by(2).map(|k| k as f64).product::<f64>();
+    let mut legendre = [0.0, double_factorial((2 * m).saturating_sub(1))];
+    for l in m + 1..=band {
+        let next = (direction.z * (2 * l - 1) as f64 * legendre[1] - (l + m - 1) as f64 * legendre[0]) / (l - m) as f64;
+        legendre = [legendre[1], next];
+    }
+    let (mut cosine, mut sine) = (1.0, 0.0);
+    for _ in 0..m {
+        (cosine, sine) = (cosine * direction.x - sine * direction.y, sine * direction.x + cosine * direction.y);
+    }
+    let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
+    let norm = ((2 * band + 1) as f64 / (4.0 * PI) * factorial(band - m) / factorial(band + m)).sqrt();
+    let (norm, around) = match order {
+        0 => (norm, 1.0),
+        1.. => (norm * 2f64.sqrt(), cosine),
+        _ => (norm * 2f64.sqrt(), sine),
+    };
+    norm * legendre[1] * around
+}
+
+/// Band and order of an index of the harmonics.
+pub fn band_and_order(index: usize) -> (usize, i32) {
+    let band = index.isqrt();
+    (band, index as i32 - (band * band + band) as i32)
+}
+
+/// `2 int_0^1 t P_l(t) dt`: what the clamped cosine over pi makes of a band.
+pub fn cosine_band(band: usize) -> f64 {
+    match band {
+        0 => 1.0,
+        1 => 2.0 / 3.0,
+        band if band % 2 == 1 => 0.0,
+        band => {
+            // Ramamoorthi & Hanrahan 2001, equation 8, over pi.
+            let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
+            let half = band / 2;
+            let sign = if half % 2 == 1 { 1.0 } else { -1.0 };
+            2.0 * sign / ((band + 2) * (band - 1)) as f64 * factorial(band)
+                / (2f64.powi(band as i32) * factorial(half).powi(2))
+        }
+    }
+}
+
+/// Radical inverse of base 2.
+pub fn radical_inverse(index: u32) -> f64 {
+    (0..32).filter(|bit| index >> bit & 1 == 1).map(|bit| 0.5f64.powi(bit + 1)).sum()
+}
+
+/// The facet that `v` sees, by a point of the square.
+pub fn visible_facet(u: DVec2, v: DVec3, alpha: f64) -> DVec3 {
+    let stretched = DVec3::new(v.x * alpha, v.y * alpha, v.z).normalize();
+    // A point of the spherical cap above -stretched.z, seen from it.
+    let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    let cap = (DVec2::from_angle(TAU * u.x) * (1.0 - z * z).max(0.0).sqrt()).extend(z);
+    let facet = cap + stretched;
+    DVec3::new(facet.x * alpha, facet.y * alpha, facet.z).normalize()
+}
+
+/// Smith's G1 of isotropic GGX; mu in (0, 1].
+pub fn masking(mu: f64, alpha: f64) -> f64 {
+    let slope = (1.0 - mu * mu).max(0.0).sqrt() / mu;
+    2.0 / (1.0 + (1.0 + (alpha * slope).powi(2)).sqrt())
+}
+
+/// Weight per solid angle, of any scale, of a direction that is `cosine` off the axis in the GGX lobe seen from the front.
+pub fn front_lobe(cosine: f64, alpha: f64) -> f64 {
+    if cosine <= 0.0 {
+        return 0.0;
+    }
+    let half = (0.5 * (1.0 + cosine)).sqrt();
+    ggx::ndf(DVec3::new((1.0 - half * half).max(0.0).sqrt(), 0.0, half), alpha, alpha) * masking(cosine, alpha)
+}
+
+/// Mean of `radiance` under that lobe about the unit vector `axis`: midpoint rule in the logarithm of the facet's tangent,
+/// and around the axis. The cube's texels approach it.
+pub fn prefiltered(axis: DVec3, alpha: f64, radiance: impl Fn(DVec3) -> DVec3) -> DVec3 {
+    const RINGS: usize = 96;
+    const AROUND: usize = 128;
+    let frame = DMat3::from_cols_array_2d(&{
+        let (x, y) = axis.any_orthonormal_pair();
+        [x.to_array(), y.to_array(), axis.to_array()]
+    });
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    front_rings(alpha, RINGS, |weight, cosine| {
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let ring = (0..AROUND).map(|i| {
+            let (y, x) = ((i as f64 + 0.5) / AROUND as f64 * TAU).sin_cos();
+            radiance(frame * DVec3::new(sine * x, sine * y, cosine))
+        });
+        sum += ring.sum::<DVec3>() * (weight / AROUND as f64);
+        weights += weight;
+    });
+    sum / weights
+}
+
+/// 1 - the length of the mean direction of that lobe.
+pub fn front_spread(alpha: f64) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    front_rings(alpha, 2000, |weight, cosine| {
+        sum += weight * (1.0 - cosine);
+        weights += weight;
+    });
+    sum / weights
+}
+
+/// Rings around the axis: weight and cosine of each. With `t = alpha^2 (e^s - 1)` the tangent squared of the facet's
+/// angle, the density of facets in s is `e^-s`.
+fn front_rings(alpha: f64, rings: usize, mut ring: impl FnMut(f64, f64)) {
+    let end = (1.0 + 1.0 / (alpha * alpha)).ln();
+    for i in 0..rings {
+        let s = (i as f64 + 0.5) / rings as f64 * end;
+        let tangent_squared = alpha * alpha * s.exp_m1();
+        let cosine = (1.0 - tangent_squared) / (1.0 + tangent_squared);
+        ring((-s).exp() * masking(cosine.max(1e-12), alpha), cosine);
+    }
+}
+
+/// Level of the cube for a roughness, `last` being its last.
+pub fn level(roughness: f64, last: f64) -> f64 {
+    (roughness.powi(2) * (last.exp2() - 1.0)).ln_1p() / std::f64::consts::LN_2
+}
+
+/// What the table of lobes says of one lobe seen under one cosine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LobeEntry {
+    /// Sine of the mean direction over the eye's, positive towards the mirror direction.
+    pub mirror: f64,
+    /// Perceptual roughness of the front-seen GGX lobe with the same spread, at most 1.
+    pub roughness: f64,
+    /// Integral of the lobe with the cosine (GGX: with F = 1).
+    pub albedo: f64,
+    /// Share of it that Schlick's `(1 - v.h)^5` takes; GGX alone.
+    pub fresnel: f64,
+}
+
+/// The entry of GGX, mu in (0, 1].
+pub fn ggx_entry(mu: f64, roughness: f64) -> LobeEntry {
+    let alpha = ggx::alpha_of_roughness(roughness);
+    let v = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
+    const SIDE: usize = 256;
+    let (mut sum, mut albedo, mut fresnel) = (DVec3::ZERO, 0.0, 0.0);
+    for i in 0..SIDE * SIDE {
+        let u = (DVec2::new((i % SIDE) as f64, (i / SIDE) as f64) + 0.5) / SIDE as f64;
+        let h = visible_facet(u, v, alpha);
+        let l = 2.0 * v.dot(h) * h - v;
+        if l.z > 0.0 {
+            // G2 / G1(v), by what the density of facets leaves of the lobe.
+            let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
+            let weight = lobe * 4.0 * v.z / (ggx::ndf(h, alpha, alpha) * masking(v.z, alpha));
+            sum += weight * l;
+            albedo += weight;
+            fresnel += weight * ggx::schlick(0.0, v.dot(h));
+        }
+    }
+    entry(sum, albedo, fresnel, (SIDE * SIDE) as f64, v.x, if alpha > ggx::SMALLEST_ALPHA { roughness } else { 0.0 })
+}
+
+/// The entry of a lobe of sheen, mu in (0, 1]: quadrature over the hemisphere of light.
+pub fn sheen_entry(lobe: &Lobe, mu: f64) -> LobeEntry {
+    const SIDE: usize = 400;
+    let v = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
+    let (mut sum, mut albedo) = (DVec3::ZERO, 0.0);
+    for i in 0..SIDE * SIDE {
+        let z = ((i % SIDE) as f64 + 0.5) / SIDE as f64;
+        let (y, x) = (((i / SIDE) as f64 + 0.5) / SIDE as f64 * TAU).sin_cos();
+        let sine = (1.0 - z * z).sqrt();
+        let l = DVec3::new(sine * x, sine * y, z);
+        let weight = lobe.times_cosine(v, l) * TAU;
+        sum += weight * l;
+        albedo += weight;
+    }
+    entry(sum, albedo, 0.0, (SIDE * SIDE) as f64, v.x, 1.0)
+}
+
+/// From sums over `count` samples; a lobe of roughness 0 is a mirror's.
+fn entry(sum: DVec3, albedo: f64, fresnel: f64, count: f64, sine_of_eye: f64, roughness: f64) -> LobeEntry {
+    let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+    let length = sum.length();
+    let mirror = if sine_of_eye > 1e-6 { share(-sum.x, length) / sine_of_eye } else { 1.0 };
+    let is_mirror = roughness == 0.0;
+    LobeEntry {
+        mirror: if is_mirror { 1.0 } else { mirror },
+        roughness: if is_mirror { 0.0 } else { roughness_of_spread(1.0 - share(length, albedo)) },
+        albedo: albedo / count,
+        fresnel: share(fresnel, albedo),
+    }
+}
+
+/// Perceptual roughness whose front-seen lobe spreads so much, at most 1.
+pub fn roughness_of_spread(spread: f64) -> f64 {
+    let (mut from, mut to) = (ggx::SMALLEST_ALPHA.sqrt(), 1.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (from + to);
+        if front_spread(middle * middle) < spread { from = middle } else { to = middle }
+    }
+    0.5 * (from + to)
+}
+
+/// Mean direction of a lobe, by the table's ratio of sines.
+pub fn lobe_axis(v: DVec3, mirror: f64) -> DVec3 {
+    let across = -mirror * v.truncate();
+    across.extend((1.0 - across.length_squared()).max(0.0).sqrt())
+}
