@@ -29,7 +29,7 @@ LightSample light_at(uint index, vec3 position_in_world) {
     LightSource source = lights[draw.first_light + index];
     LightSample light = light_sample(source, position_in_world);
 #ifdef OCCLUDED
-    if (HAS_SHADOWS) { light.irradiance *= shadow_transmittance(source, light.direction_in_world, position_in_world); }
+    if (HAS_SHADOWS && any(greaterThan(light.irradiance, vec3(0.0)))) { light.irradiance *= shadow_transmittance(source, light.direction_in_world, position_in_world); }
 #endif
     return light;
 }

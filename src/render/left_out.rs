@@ -151,13 +151,7 @@ impl List {
     }
 }
 
-fn reason_of_binding(
-    plan: &Plan,
-    scene: &Scene,
-    family: &str,
-    binding: &str,
-    options: &FrameOptions,
-) -> &'static str {
+fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str, options: &FrameOptions) -> &'static str {
     match (binding.strip_suffix("_map"), binding) {
         _ if binding.to_lowercase().starts_with("shadow") => reason_of_no_shadows(plan, options),
         (Some(stem), _) if has_map(plan, scene, family, stem) => {

@@ -10,9 +10,9 @@ use std::fmt::Write;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Sampler, Topology};
 use vair::gpu::CallCounts;
-use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shot};
+use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shot, Target};
 use vair::scene::{CameraChoice, Scene};
-use vair::shader::layout::{FrameUniforms, FurUniforms, LightSource, ObjectUniforms, StandardUniforms};
+use vair::shader::layout::{FrameUniforms, FurUniforms, LightSource, ObjectUniforms, ShadowSource, StandardUniforms};
 
 /// Four floats, as stand-ins are; two of them for absent streams.
 const TEXEL_BYTES: u64 = 16;
@@ -43,7 +43,17 @@ struct PerFrame {
 }
 
 fn draws(plan: &Plan) -> Vec<Draw> {
-    [&plan.opaque[..], &plan.fur, &plan.transparent].concat()
+    let casting: Vec<Draw> = plan.shadows.draws().copied().collect();
+    [&plan.opaque[..], &plan.fur, &plan.transparent, &casting].concat()
+}
+
+/// The same as often as they are recorded: what casts a shadow is in the map of every light that reaches it.
+fn recorded(plan: &Plan) -> Vec<Draw> {
+    let maps = |draw: &Draw| match plan.pipelines[draw.pipeline].target {
+        Target::Color => 1,
+        _ => plan.shadows.maps.iter().filter(|map| plan.lights.of(draw.instance).contains(&map.light)).count(),
+    };
+    draws(plan).into_iter().flat_map(|draw| std::iter::repeat_n(draw, maps(&draw))).collect()
 }
 
 fn coats(plan: &Plan) -> u64 {
@@ -53,10 +63,14 @@ fn coats(plan: &Plan) -> u64 {
 fn per_frame(scene: &Scene, shot: &Shot) -> PerFrame {
     let plan = &shot.plan;
     let is_lit = plan.pipelines.iter().any(|spec| spec.bindings().contains("LightList"));
-    let mut sizes =
-        vec![size_of::<FrameUniforms>() as u64, (plan.instances.len() * size_of::<ObjectUniforms>()) as u64];
+    let mut sizes = vec![(plan.instances.len() * size_of::<ObjectUniforms>()) as u64];
+    sizes.extend((0..=plan.shadows.maps.len()).map(|_| size_of::<FrameUniforms>() as u64));
     if is_lit {
-        sizes.push((shot.lighting.lights.len() * size_of::<LightSource>()) as u64);
+        // Vulkan has no empty buffers.
+        sizes.push((plan.lights.lights.len().max(1) * size_of::<LightSource>()) as u64);
+    }
+    if plan.shadows.is_bound {
+        sizes.push((plan.shadows.maps.len().max(1) * size_of::<ShadowSource>()) as u64);
     }
     sizes.extend((0..coats(plan)).map(|_| size_of::<FurUniforms>() as u64));
     let skins: BTreeSet<usize> = plan.deforms.iter().filter_map(|d| plan.instances[d.instance].skin).collect();
@@ -105,7 +119,7 @@ fn draw_calls(scene: &Scene, plan: &Plan) -> u64 {
         let spec = &plan.pipelines[draw.pipeline];
         if double_sided && spec.blend && spec.topology == Topology::Triangles { 2 } else { 1 }
     };
-    draws(plan).iter().map(sides).sum()
+    recorded(plan).iter().map(sides).sum()
 }
 
 /// The first frame of a scene makes what the plan lists.
@@ -115,12 +129,12 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
     let per_frame = per_frame(scene, &shot);
     let (source_buffers, source_bytes) = deform_sources(scene, plan);
     let raster = plan.passes.iter().filter(|pass| !matches!(pass, Pass::Deform | Pass::Sway)).count() as u64;
-    let images = plan.textures.len() + plan.stand_ins.len() + plan.attachments.len() + 1;
+    let images = plan.textures.len() + plan.stand_ins.len() + plan.attachments.len() + plan.shadows.images().len() + 1;
     let mipmapped = plan.textures.iter().map(|texture| &asset.images[texture.image]);
     let mipmapped = mipmapped.filter(|image| image.width.max(image.height) > 1).count();
     let streams: usize = plan.streams.values().map(BTreeSet::len).sum();
     let absent = u64::from(plan.has_absent_streams);
-    let inputs: usize = draws(plan).iter().map(|draw| plan.pipelines[draw.pipeline].inputs().len()).sum();
+    let inputs: usize = recorded(plan).iter().map(|draw| plan.pipelines[draw.pipeline].inputs().len()).sum();
     let kept = streams as u64 + plan.streams.len() as u64 + absent + surfaces(plan) + source_buffers;
     // What stands in is not filtered.
     let unfiltered = plan.stand_ins.iter().map(|_| NEAREST);
@@ -135,14 +149,14 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
         ("vkCreateImageView", (images + mipmapped) as u64),
         // What strands remember from frame to frame is a buffer a coat.
         ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64),
-        ("vkCreateSampler", samplers.len() as u64),
+        ("vkCreateSampler", samplers.len() as u64 + u64::from(plan.shadows.is_bound)),
         ("vkCmdCopyBuffer", kept),
         ("vkCmdBeginRendering", raster),
         ("vkCmdDrawIndexed", draw_calls(scene, plan)),
         ("vkCmdDraw", 1),
         ("vkCmdDispatch", (plan.deforms.len() + plan.sways.len()) as u64),
         ("vkCmdBindVertexBuffers2", inputs as u64),
-        ("vkCmdBindIndexBuffer", draws(plan).len() as u64),
+        ("vkCmdBindIndexBuffer", recorded(plan).len() as u64),
     ] {
         assert_eq!(report.calls.of(name), expected, "{what}: {name}");
     }

@@ -39,6 +39,7 @@ mod planted;
 mod presets;
 mod satin;
 mod scenes;
+mod shadow;
 mod shells;
 mod submission;
 mod surface;
