@@ -101,7 +101,7 @@ fn twin_of_masks() -> fn(&mut vair::verify::Given<'_>) -> Vec<f64> {
 #[test]
 fn the_same_inputs_every_time() {
     on_device(|gpu| {
-        let once = || verify::check(gpu, &twin("strand_lobe"), SAMPLES).unwrap();
+        let once = || verify::check(gpu, &twin("fibre_scattering"), SAMPLES).unwrap();
         assert_eq!(once(), once());
     });
 }

@@ -29,7 +29,7 @@ struct Arguments {
     /// Only the scenarios whose name contains this.
     #[arg(long, value_name = "NAME")]
     scenario: Option<String>,
-    /// Keeps our pictures, over white, in this folder.
+    /// Keeps a sheet a scenario in this folder: our picture over white, then those of the others in the order printed.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Prints one JSON object.
@@ -80,9 +80,10 @@ fn main() -> Result<()> {
         let ours = draw(&mut renderer, &scenario, &surroundings, first.size)?;
         if let Some(folder) = &arguments.out {
             std::fs::create_dir_all(folder)?;
-            let [width, height] = ours.size;
+            let row: Vec<&Picture> = std::iter::once(&ours).chain(goldens.iter().map(|(_, golden)| golden)).collect();
+            let Picture { size: [width, height], rgb } = side_by_side(&row);
             let path = folder.join(format!("{}.png", scenario.name));
-            image::save_buffer(&path, &ours.rgb, width, height, image::ColorType::Rgb8)?;
+            image::save_buffer(&path, &rgb, width, height, image::ColorType::Rgb8)?;
         }
         let distances = distances(scenario.name, &ours, &goldens);
         if !arguments.json {
@@ -193,6 +194,21 @@ fn averaged(rgb: &[u8], [width, height]: [u32; 2]) -> Vec<u8> {
         .flat_map(|y| (0..width).flat_map(move |x| (0..3).map(move |channel| (x, y, channel))))
         .map(|(x, y, channel)| texel(x, y, channel))
         .collect()
+}
+
+/// Pictures of one size in rows of four.
+fn side_by_side(pictures: &[&Picture]) -> Picture {
+    const COLUMNS: usize = 4;
+    let [width, height] = pictures.first().map_or([0; 2], |picture| picture.size.map(|side| side as usize));
+    let (columns, rows) = (COLUMNS.min(pictures.len()), pictures.len().div_ceil(COLUMNS));
+    let mut rgb = vec![255; columns * width * rows * height * 3];
+    for (index, picture) in pictures.iter().enumerate() {
+        for y in 0..height {
+            let at = (((index / COLUMNS) * height + y) * columns + index % COLUMNS) * width * 3;
+            rgb[at..at + width * 3].copy_from_slice(&picture.rgb[y * width * 3..(y + 1) * width * 3]);
+        }
+    }
+    Picture { size: [(columns * width) as u32, (rows * height) as u32], rgb }
 }
 
 /// Mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images").

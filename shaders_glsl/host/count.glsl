@@ -2,6 +2,7 @@
 // Rust by build.rs.
 #ifndef VAIR_COUNT_GLSL
 #define VAIR_COUNT_GLSL
+#include "sample_places.glsl"
 
 // Fragments of one row of pixels.
 struct RowCounts {
@@ -19,9 +20,6 @@ layout(set = 3, binding = 0, std430) buffer FragmentCounts {
 // All passes, for each pixel: the nearest depth of each sample so far, as bits, then the last pass that covered it.
 layout(set = 3, binding = 1, std430) buffer FragmentPixels { uint pixels[]; };
 
-// Where the four samples lie in a pixel, from its middle (Vulkan 1.3, "Standard sample locations").
-const vec2 SAMPLE_OFFSETS[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
-
 // Counts this fragment, of which `coverage` (bits of the samples) survives. A fragment shader that writes memory runs
 // before the depth test, so the test that stands before the ordinary shader is done here: depth is reversed and not
 // negative, and as bits it orders as it does as a number. Call it where all neighbours still run.
@@ -33,7 +31,7 @@ void count_fragment(uint coverage, uint sample_count, bool writes_depth) {
     uint passing = 0u;
     for (uint index = 0u; index < sample_count; ++index) {
         if ((reached >> index & 1u) == 0u) { continue; }
-        float depth = gl_FragCoord.z + (sample_count == 1u ? 0.0 : dot(depth_slope, SAMPLE_OFFSETS[index]));
+        float depth = gl_FragCoord.z + (sample_count == 1u ? 0.0 : dot(depth_slope, SAMPLE_PLACES[index]));
         // Minus zero would be a large number of bits.
         uint bits = depth > 0.0 ? floatBitsToUint(depth) : 0u;
         bool writes = writes_depth && (coverage >> index & 1u) != 0u;

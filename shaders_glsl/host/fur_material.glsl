@@ -28,7 +28,7 @@ struct FurUniforms {
     float curl;                // radius of a coil at the tip, in strand spacings, in [0, 1]
     float projection_scale;    // UV units per rest-pose unit where the mesh has no UVs
     uint layers;               // number of shells
-    float _reserved_0;
+    float transmission;        // strength of the transmitted lobe, in [0, 1]
     float _reserved_1;
     float _reserved_2;
     TextureTransform distribution_transform;

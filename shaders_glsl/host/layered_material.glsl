@@ -21,6 +21,8 @@ struct LayeredUniforms {
     float clearcoat_roughness;      // perceptual
     float clearcoat_normal_scale;   // of its normal map's x and y
     float transmission;             // share of what goes straight through, [0, 1]
+    vec3 attenuation_color;         // linear, of the body after its distance of attenuation
+    float thickness_over_distance;  // ways of that distance in the body's thickness, a metre a unit of the mesh
     TextureTransform specular_transform;
     TextureTransform specular_color_transform;
     TextureTransform anisotropy_transform;
@@ -29,6 +31,7 @@ struct LayeredUniforms {
     TextureTransform diffuse_transmission_transform;
     TextureTransform diffuse_transmission_color_transform;
     TextureTransform transmission_transform;
+    TextureTransform thickness_transform;
     TextureTransform sheen_color_transform;
     TextureTransform sheen_roughness_transform;
     TextureTransform clearcoat_transform;

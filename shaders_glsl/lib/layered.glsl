@@ -115,10 +115,9 @@ float layered_under(float strength, float albedo_to_eye, float albedo_to_light) 
     return 1.0 - clamp(strength * max(albedo_to_eye, albedo_to_light), 0.0, 1.0);
 }
 
-// Share of the light from straight behind that comes through the base; of its colour the luminance, as blending takes one
-// number.
-float layered_through(float transmission, float metallic, vec3 base_color, vec3 albedo) {
-    return transmission * (1.0 - metallic) * luminance(base_color * (1.0 - albedo));
+// Share of the light from straight behind that comes through the base (KHR_materials_transmission, without refraction).
+vec3 layered_through(float transmission, float metallic, vec3 base_color, vec3 albedo) {
+    return transmission * (1.0 - metallic) * base_color * (1.0 - albedo);
 }
 
 #endif

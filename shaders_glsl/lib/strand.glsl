@@ -1,4 +1,4 @@
-// Where strands stand, how thick they are at a height, and how a strand scatters light.
+// Where strands stand, how thick they are at a height, and how they lean and hide each other.
 #ifndef VAIR_STRAND_GLSL
 #define VAIR_STRAND_GLSL
 #include "hash.glsl"
@@ -202,68 +202,20 @@ float strand_bend_angle(vec3 root_direction, vec3 force) {
     return min(strength * to_force, 1.57079633 * sideways);
 }
 
-// Light that a strand at `height` receives through the coat above it. The optical depth at the root is
-// -ln(1 - occlusion); it falls linearly with height, and slanted light crosses 1 / cosine as much of it.
-float strand_light_through_coat(float height, float occlusion, float cosine_to_light) {
+// The body below a coat is curved: light at its horizon crosses not endlessly much of the coat, and light from this far (as
+// a cosine) below it still reaches the tips.
+const float STRAND_PAST_HORIZON = 0.3;
+
+// Optical depth of the coat above a strand at `height` along the light. At the root, straight down, it is
+// -ln(1 - occlusion); it falls linearly with height, and slanted light crosses more of it: the chord of a shell around a
+// sphere, 2 / (cosine + sqrt(cosine^2 + 2 depth / radius)) times as much.
+float strand_optical_depth(float height, float occlusion, float cosine_to_light) {
     float depth_at_root = -log(max(1.0 - occlusion, 1e-3));
-    return exp(-depth_at_root * (1.0 - height) / max(cosine_to_light, 0.05));
-}
-
-// cos(phi / 2) for a direction along the fibre, which has no angle around it: its mean, 2 / pi, so that the lobe keeps its
-// integral.
-const float STRAND_HALF_COSINE_ALONG = 0.636619772;
-
-// Scattering lobe of a fibre: Gaussian in the sum of the sines of the two angles along the fibre (mean `shift`,
-// variance `variance`), cos(phi / 2) / 4 around it. Its integral over all directions is at most 1; no cosine
-// belongs to it. Azimuthal part: Marschner et al. 2003, "Light Scattering from Human Hair Fibers", section 5.
-float strand_lobe(vec3 tangent, vec3 to_eye, vec3 to_light, float shift, float variance) {
-    float sine_eye = dot(tangent, to_eye);
-    float sine_light = dot(tangent, to_light);
-    float deviation = sine_eye + sine_light - shift;
-    float along = exp(-0.5 * deviation * deviation / variance) * inversesqrt(6.28318531 * variance);
-    vec3 eye_across = to_eye - sine_eye * tangent;
-    vec3 light_across = to_light - sine_light * tangent;
-    float eye_squared = dot(eye_across, eye_across);
-    float light_squared = dot(light_across, light_across);
-    // The half angle's cosine as half the length of a sum: 0.5 + 0.5 cos would cancel where the eye looks into the light.
-    vec3 sum = eye_across * inversesqrt(max(eye_squared, 1e-30)) + light_across * inversesqrt(max(light_squared, 1e-30));
-    float half_cosine = eye_squared * light_squared > 1e-12 ? 0.5 * length(sum) : STRAND_HALF_COSINE_ALONG;
-    return along * 0.25 * half_cosine;
-}
-
-// Variance of a lobe from the longitudinal roughness. Source: Chiang et al. 2016, "A Practical and Controllable
-// Hair and Fur Model for Production Path Tracing", equation 7.
-float strand_variance(float roughness) {
-    float b = clamp(roughness, 0.1, 1.0);
-    float b2 = b * b;
-    float b4 = b2 * b2;
-    float b16 = b4 * b4 * b4 * b4;
-    float root = 0.726 * b + 0.812 * b2 + 3.7 * b16 * b4;
-    return root * root;
-}
-
-// Light wraps this far around the coat's surface: strands stand up and catch it past the terminator.
-const float STRAND_WRAP = 0.3;
-
-// Share of light reflected as a white highlight, and as a coloured one that went through the strand twice.
-const float STRAND_REFLECTED = 0.10;
-const float STRAND_RETURNED = 0.30;
-// Tilt of the cuticle's scales, as the sine that shifts the two highlights apart.
-const float STRAND_SCALE_TILT = 0.08;
-
-// Radiance per unit irradiance of a strand with reflectance `color`: diffuse multiple scattering (wrapped, at most
-// `color`), a white highlight shifted to the root and a coloured one shifted to the tip.
-vec3 strand_scattering(vec3 color, vec3 normal, vec3 tangent, vec3 to_eye, vec3 to_light, float specular, float variance) {
-    float sine_light = dot(tangent, to_light);
-    float across = sqrt(max(1.0 - sine_light * sine_light, 0.0));
-    float wrapped = max(dot(normal, to_light) + STRAND_WRAP, 0.0) / ((1.0 + STRAND_WRAP) * (1.0 + STRAND_WRAP));
-    float reflected = STRAND_REFLECTED * specular;
-    float returned = STRAND_RETURNED * specular;
-    vec3 diffuse = color * ((1.0 - reflected - returned) * 0.318309886 * wrapped * mix(0.7, 1.05, across));
-    float facing = clamp(wrapped * 4.0, 0.0, 1.0);
-    float white = reflected * strand_lobe(tangent, to_eye, to_light, -STRAND_SCALE_TILT, variance);
-    float colored = returned * strand_lobe(tangent, to_eye, to_light, 1.5 * STRAND_SCALE_TILT, 4.0 * variance);
-    return diffuse + facing * (vec3(white) + color * colored);
+    float horizon = sqrt(cosine_to_light * cosine_to_light + STRAND_PAST_HORIZON * STRAND_PAST_HORIZON);
+    // Of two forms the one that does not cancel.
+    float cosine = cosine_to_light > 0.0 ? 0.5 * (cosine_to_light + horizon)
+                                         : 0.5 * STRAND_PAST_HORIZON * STRAND_PAST_HORIZON / (horizon - cosine_to_light);
+    return depth_at_root * (1.0 - height) / cosine;
 }
 
 #endif

@@ -9,10 +9,15 @@
 #include "direction.glsl"
 #include "hash.glsl"
 #include "strand.glsl"
+#include "fibre.glsl"
 #include "lock.glsl"
 #include "coverage.glsl"
 #ifdef COUNT
 #include "count.glsl"
+#endif
+#ifdef LIST
+#include "object.glsl"
+#include "transparency_append.glsl"
 #endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
@@ -27,7 +32,7 @@ layout(constant_id = 12) const bool KEEP_PARTIAL = false;    // partial opacity 
 layout(constant_id = 14) const uint SAMPLING = 0;            // 0 slab, 1 point
 layout(constant_id = 15) const uint ALPHA = 0;               // 0 correlated between shells, 1 each shell alone, 2 step
 
-#include "lighting.glsl"
+#include "fur_light.glsl"
 layout(set = 1, binding = 0, std140) uniform FurBlock { FurUniforms fur; };
 #ifdef MAPS
 layout(set = 1, binding = 3) uniform texture2D distribution_map;
@@ -238,6 +243,9 @@ void main() {
     radiance = vec4(1.0);
     if (mask == 0) { discard; }
 #else
+#ifdef LIST
+    vec2 depth_slope = list_slope();
+#endif
     if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
 
@@ -262,15 +270,21 @@ void main() {
     color *= mix(fur.root_color, fur.tip_color, height);
     color = min(color * (1.0 + fur.color_variation * (own_random * 2.0 - 1.0)), vec3(1.0));
 
-    float variance = strand_variance(fur.roughness);
-    vec3 sum = environment_irradiance(normal) * color * mix(1.0 - fur.occlusion, 1.0, height);
+    // Optical depths on average over all directions and along each light. What hides the strand from the eye are the
+    // shells above, so that the view counts once.
+    Fibre fibre = fibre_to_eye(normal, strand, to_eye, fur.specular, fur.transmission, fibre_variance(fur.roughness));
+    float depth_all_over = -log(max(1.0 - fur.occlusion * (1.0 - height), 1e-3));
+    vec3 sum = screen_occlusion() * fur_surroundings(fibre, color, to_eye, depth_all_over);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
-        float through = strand_light_through_coat(height, fur.occlusion, dot(normal, light.direction_in_world));
-        vec3 scattered = strand_scattering(color, normal, strand, to_eye, light.direction_in_world, fur.specular, variance);
-        sum += light.irradiance * through * scattered;
+        float depth = strand_optical_depth(height, fur.occlusion, dot(normal, light.direction_in_world));
+        sum += light.irradiance * fibre_scattering(fibre, color, light.direction_in_world, depth);
     }
     sum = min(sum, vec3(RADIANCE_LIMIT));
+#ifdef LIST
+    radiance = list_append(sum * opacity, vec3(1.0 - opacity), depth_slope, uint(gl_SampleMaskIn[0]), draw.rank);
+#else
     radiance = BLEND ? vec4(sum * opacity, opacity) : vec4(sum, 1.0);
+#endif
 #endif
 }

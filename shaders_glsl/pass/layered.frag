@@ -6,6 +6,7 @@
 #include "layered_material.glsl"
 #include "layered.glsl"
 #include "film.glsl"
+#include "transparency.glsl"
 #ifdef SHEEN
 #include "sheen_table.glsl"
 #endif
@@ -27,7 +28,9 @@ layout(constant_id = 33) const bool ANISOTROPY = false;
 layout(constant_id = 34) const bool IRIDESCENCE = false;
 layout(constant_id = 35) const bool DIFFUSE_TRANSMISSION = false;
 layout(constant_id = 36) const bool TRANSMISSION = false;
+layout(constant_id = 37) const bool VOLUME = false;    // of a body that transmits
 layout(constant_id = 38) const bool CLEARCOAT = false;
+layout(constant_id = 39) const bool HAS_THICKNESS_MAP = false;
 
 layout(set = 1, binding = 20, std140) uniform LayeredBlock { LayeredUniforms layered; };
 #ifdef MAPS
@@ -57,6 +60,8 @@ layout(set = 1, binding = 43) uniform texture2D clearcoat_roughness_map;
 layout(set = 1, binding = 44) uniform sampler clearcoat_roughness_sampler;
 layout(set = 1, binding = 45) uniform texture2D clearcoat_normal_map;
 layout(set = 1, binding = 46) uniform sampler clearcoat_normal_sampler;
+layout(set = 1, binding = 47) uniform texture2D thickness_map;
+layout(set = 1, binding = 48) uniform sampler thickness_sampler;
 #define MAP(map, map_sampler, transform) texture(sampler2D(map, map_sampler), uv_transformed(transform, uv_sets.xy, uv_sets.zw))
 #endif
 
@@ -200,6 +205,16 @@ vec2 base_terms(vec3 w, float roughness, vec2 widths) {
     return ANISOTROPY ? anisotropic_albedo_terms(w, widths) : ggx_albedo_terms(w.z, roughness);
 }
 
+// What a body leaves of the light on its way from the back to the front, where it is seen to leave: straight through, as
+// thick as the file says whatever the angle.
+vec3 absorbed() {
+    float way = gl_FrontFacing ? layered.thickness_over_distance * draw.metres_per_unit : 0.0;
+#ifdef MAPS
+    if (HAS_THICKNESS_MAP) { way *= MAP(thickness_map, thickness_sampler, layered.thickness_transform).g; }
+#endif
+    return transparency_attenuation(layered.attenuation_color, way);
+}
+
 float largest(vec3 color) {
     return max(max(color.r, color.g), color.b);
 }
@@ -232,7 +247,8 @@ void main() {
     vec2 terms = base_terms(eye, f.roughness, m.widths);
     LayeredBase base = layered_base(m.f0, m.f90, m.widths, terms, averages, m.reflected, m.transmitted);
     vec3 ambient = layered_base_ambient(base);
-    float through = TRANSMISSION ? layered_through(m.transmission, f.metallic, f.base_color, base.albedo) : 0.0;
+    vec3 through = TRANSMISSION ? layered_through(m.transmission, f.metallic, f.base_color, base.albedo) : vec3(0.0);
+    if (VOLUME) { through *= absorbed(); }
 
 #ifdef SHEEN
     SheenLobe sheen = sheen_table_lobe(SHEEN_CHARLIE, eye, m.sheen_roughness);
@@ -277,6 +293,6 @@ void main() {
         sum += light.irradiance * seen;
     }
     float opacity = surface_opacity(color.a);
-    surface_output(min(sum + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0 - opacity * (1.0 - through)));
+    surface_output(min(sum + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0) - opacity * (vec3(1.0) - through));
     surface_cover(mask);
 }

@@ -9,9 +9,13 @@
 #include "uv.glsl"
 #include "hash.glsl"
 #include "coverage.glsl"
+#include "object.glsl"
 #ifdef COUNT
 #define UNLIT
 #include "count.glsl"
+#endif
+#ifdef LIST
+#include "transparency_append.glsl"
 #endif
 
 layout(constant_id = 0) const uint ALPHA_MODE = 0; // 0 opaque, 1 mask, 2 blend
@@ -68,8 +72,17 @@ layout(location = 3) in vec4 tangent_in_world;
 layout(location = 4) in vec4 vertex_color;
 #endif
 
+#ifdef UNLIT
+layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+#endif
+
 #ifndef SHADOW
 layout(location = 0) out vec4 radiance;
+#endif
+#ifdef LIST
+// What surface_output was given.
+vec3 listed_radiance;
+vec3 listed_transmittance;
 #endif
 
 // Linear RGBA before coverage.
@@ -144,6 +157,20 @@ float surface_opacity(float alpha) {
     return mode == 2u ? clamp(alpha, 0.0, 1.0) : 1.0;
 }
 
+#ifndef SHADOW
+// All that a surface shows: linear radiance, premultiplied by its opacity, and the share of what lies behind that it lets
+// through, by channel.
+void surface_output(vec3 premultiplied, vec3 transmittance) {
+#ifdef LIST
+    listed_radiance = premultiplied;
+    listed_transmittance = transmittance;
+#else
+    float opacity = 1.0 - (transmittance.r + transmittance.g + transmittance.b) * (1.0 / 3.0);
+    radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
+#endif
+}
+#endif
+
 #ifndef UNLIT
 #ifdef OCCLUDED
 ShadowReceiver shadow_receiver() {
@@ -211,18 +238,6 @@ SurfaceFragment surface_fragment(vec4 color) {
     return f;
 }
 
-#endif
-
-#ifndef SHADOW
-// All that a surface shows: linear radiance, premultiplied by its opacity, and the share of what lies behind that it lets
-// through, by channel.
-void surface_output(vec3 premultiplied, vec3 transmittance) {
-    float opacity = 1.0 - (transmittance.r + transmittance.g + transmittance.b) * (1.0 / 3.0);
-    radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
-}
-#endif
-
-#ifndef UNLIT
 // `reflected` is what the lights and the surroundings give.
 void surface_write(SurfaceFragment f, vec3 reflected, float opacity) {
     surface_output(min(reflected + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0 - opacity));
@@ -231,6 +246,10 @@ void surface_write(SurfaceFragment f, vec3 reflected, float opacity) {
 
 // Last: the textures above need all neighbours for their derivatives.
 void surface_cover(int mask) {
+#ifdef LIST
+    uint samples = uint(mask) & uint(gl_SampleMaskIn[0]);
+    radiance = list_append(listed_radiance, listed_transmittance, list_slope(), samples, draw.rank);
+#endif
     if (mask == 0) { discard; }
     gl_SampleMask[0] = mask;
 }

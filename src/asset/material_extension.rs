@@ -27,6 +27,8 @@ pub struct MaterialExtensions {
     pub ior: Option<f32>,
     /// KHR_materials_transmission.
     pub transmission: Option<Box<Transmission>>,
+    /// KHR_materials_volume.
+    pub volume: Option<Box<Volume>>,
     /// KHR_materials_diffuse_transmission.
     pub diffuse_transmission: Option<Box<DiffuseTransmission>>,
 }
@@ -109,6 +111,19 @@ pub struct Transmission {
     pub texture: Option<TextureRef>,
 }
 
+/// The inside of a closed body that light goes straight through.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Volume {
+    /// Of the body under its surface, in units of the mesh, >= 0; 0 is a thin wall, which has no inside.
+    pub thickness: f32,
+    /// G.
+    pub thickness_texture: Option<TextureRef>,
+    /// Linear RGB that is left of white after `attenuation_distance_m`, in [0, 1].
+    pub attenuation_color: Vec3,
+    /// Metres, > 0; `f32::MAX` absorbs nothing.
+    pub attenuation_distance_m: f32,
+}
+
 /// Light that goes through and is scattered evenly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiffuseTransmission {
@@ -125,16 +140,34 @@ pub struct DiffuseTransmission {
 impl MaterialExtensions {
     /// Every texture that they name.
     pub fn textures(&self) -> impl Iterator<Item = TextureRef> {
-        let Self { sheen, clearcoat, anisotropy, iridescence, specular, ior: _, transmission, diffuse_transmission } =
-            self;
+        let Self {
+            sheen,
+            clearcoat,
+            anisotropy,
+            iridescence,
+            specular,
+            ior: _,
+            transmission,
+            volume,
+            diffuse_transmission,
+        } = self;
         let sheen = sheen.iter().flat_map(|sheen| [sheen.color_texture, sheen.roughness_texture]);
         let coat = clearcoat.iter().flat_map(|coat| [coat.texture, coat.roughness_texture, coat.normal_texture]);
         let anisotropy = anisotropy.iter().map(|anisotropy| anisotropy.texture);
         let film = iridescence.iter().flat_map(|film| [film.texture, film.thickness_texture]);
         let specular = specular.iter().flat_map(|specular| [specular.texture, specular.color_texture]);
         let through = transmission.iter().map(|through| through.texture);
+        let inside = volume.iter().map(|volume| volume.thickness_texture);
         let scattered = diffuse_transmission.iter().flat_map(|through| [through.texture, through.color_texture]);
-        sheen.chain(coat).chain(anisotropy).chain(film).chain(specular).chain(through).chain(scattered).flatten()
+        sheen
+            .chain(coat)
+            .chain(anisotropy)
+            .chain(film)
+            .chain(specular)
+            .chain(through)
+            .chain(inside)
+            .chain(scattered)
+            .flatten()
     }
 }
 
@@ -163,7 +196,7 @@ pub(super) fn read(reader: &Reader, json: &BTreeMap<String, Value>) -> Result<Ma
             "specular" => extensions.specular = Some(Box::new(extension.specular()?)),
             "ior" => extensions.ior = Some(extension.ior()?),
             "transmission" => extensions.transmission = Some(Box::new(extension.transmission()?)),
-            "volume" => extension.volume()?,
+            "volume" => extensions.volume = Some(Box::new(extension.volume()?)),
             "diffuse_transmission" => {
                 extensions.diffuse_transmission = Some(Box::new(extension.diffuse_transmission()?));
             }
@@ -245,20 +278,31 @@ impl Extension<'_> {
     fn transmission(&self) -> Result<Transmission, AssetError> {
         let factor = self.share("transmissionFactor", 0.0)?;
         if factor > 0.0 {
-            self.warn("transmissionFactor", "is shown as opacity: what lies behind is neither tinted nor blurred");
+            self.warn(
+                "transmissionFactor",
+                "is shown thin: what lies behind is tinted, and neither refracted, blurred nor dispersed",
+            );
         }
         Ok(Transmission { factor, texture: self.texture("transmissionTexture")? })
     }
 
-    /// A volume is shown as a thin wall, which has no inside: nothing of it is kept.
-    fn volume(&self) -> Result<(), AssetError> {
-        self.color("attenuationColor", 1.0, 1.0)?;
-        self.number("attenuationDistance", ANY, (0.0, ANY))?;
-        self.texture("thicknessTexture")?;
-        if self.number("thicknessFactor", 0.0, (0.0, ANY))? > 0.0 {
-            self.warn("thicknessFactor", "is shown as a thin wall: nothing refracts or is absorbed inside");
-        }
-        Ok(())
+    fn volume(&self) -> Result<Volume, AssetError> {
+        let attenuation_distance_m = match self.number("attenuationDistance", ANY, (0.0, ANY))? {
+            0.0 => {
+                self.warn(
+                    "attenuationDistance",
+                    "is 0, at which nothing could be seen: absorbs nothing; make it larger",
+                );
+                ANY
+            }
+            distance_m => distance_m,
+        };
+        Ok(Volume {
+            thickness: self.number("thicknessFactor", 0.0, (0.0, ANY))?,
+            thickness_texture: self.texture("thicknessTexture")?,
+            attenuation_color: self.color("attenuationColor", 1.0, 1.0)?,
+            attenuation_distance_m,
+        })
     }
 
     fn diffuse_transmission(&self) -> Result<DiffuseTransmission, AssetError> {

@@ -47,7 +47,7 @@ pub use environment::{Environment, MAX_ENVIRONMENT_SIZE, MAX_RADIANCE};
 pub use error::AssetError;
 pub use image::{MAX_IMAGE_SIDE_PX, decode_image};
 pub use material_extension::{
-    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission,
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, MaterialExtensions, Sheen, Specular, Transmission, Volume,
 };
 pub use model::*;
 pub use tangent::{

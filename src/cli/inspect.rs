@@ -42,7 +42,7 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
         .iter()
         .map(|spec| json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } }));
     let tonemap = tonemap(options);
-    let pipelines = compute.chain(plan.pipelines.iter().chain([&tonemap]).map(pipeline));
+    let pipelines = compute.chain(plan.pipelines.iter().chain(&plan.composition).chain([&tonemap]).map(pipeline));
     let textures = plan.textures.iter().map(|texture| {
         let name = &scene.asset().images[texture.image].name;
         json!({ "name": name, "format": format(texture), "bytes": texture.bytes(scene.asset()) })
@@ -85,7 +85,7 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     for spec in &plan.compute_pipelines {
         text += &format!("  {} ({})\n", spec.shader, constants_text(&spec.constants));
     }
-    for spec in plan.pipelines.iter().chain([&tonemap(options)]) {
+    for spec in plan.pipelines.iter().chain(&plan.composition).chain([&tonemap(options)]) {
         text += &format!("  {} with {} ({})\n", spec.fragment, spec.vertex, constants_text(&spec.constants));
         let names = |set: BTreeSet<&str>| set.into_iter().collect::<Vec<_>>().join(" ");
         text += &format!("    binds {}, reads {}\n", names(spec.bindings()), names(spec.inputs()));
@@ -125,6 +125,7 @@ fn draws(plan: &Plan, pass: Pass) -> usize {
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
+        Pass::Transparency => usize::from(plan.composition.is_some()),
         Pass::Tonemap => 1,
     }
 }

@@ -239,6 +239,7 @@ fn summary(rendered: &Rendered) -> Value {
         },
         "passes": passes.collect::<Vec<_>>(),
         "fur": output::coats(&report.fur),
+        "transparency": report.lists.map(|lists| json!({ "fragments": lists.fragments, "entries": lists.entries })),
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes },
         "left_out": output::left_out(&report.left_out),
         "warnings": scene.asset().warnings,
@@ -271,6 +272,11 @@ fn as_text(path: &Path, count: usize, report: &FrameReport, times: &FrameTimes) 
         let time = median.map_or_else(|| "not timed".to_owned(), |ms| format!("{ms:.2} ms"));
         let (name, draws, instances, triangles) = (pass.name.as_str(), pass.draws, pass.instances, pass.triangles);
         text += &format!("  {name:<12} {time:>12}  {draws} draws, {instances} instances, {triangles} triangles\n");
+    }
+    if let Some(lists) = report.lists.filter(|lists| lists.fragments > lists.entries) {
+        let missed = lists.fragments - lists.entries;
+        text +=
+            &format!("{missed} of {} fragments that blend are sorted by objects: too many a pixel\n", lists.fragments);
     }
     text += &format!("device memory: {:.1} MiB\n", report.memory.device_bytes as f64 / f64::from(1 << 20));
     text

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, LoadOptions};
 use vair::material::Look;
-use vair::render::{Background, FrameOptions, HdrFormat, Shadows, Shells, Tonemap};
+use vair::render::{Background, FrameOptions, HdrFormat, Shadows, Shells, Tonemap, Transparency};
 use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
 /// What to show.
@@ -74,6 +74,10 @@ pub struct SceneArguments {
     /// Tone curve.
     #[arg(long, value_enum, default_value_t = TonemapChoice::Neutral)]
     tonemap: TonemapChoice,
+    /// How layers that blend lie over each other: sorted pixel by pixel; weighted by depth (McGuire & Bavoil) and not
+    /// sorted; or sorted object by object.
+    #[arg(long, value_enum, default_value_t = TransparencyChoice::PerPixel)]
+    transparency: TransparencyChoice,
     /// Exposure in stops.
     #[arg(long, value_name = "EV", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
     exposure: f32,
@@ -95,6 +99,13 @@ enum HdrChoice {
 enum Switch {
     On,
     Off,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TransparencyChoice {
+    PerPixel,
+    Weighted,
+    Sorted,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -183,6 +194,11 @@ impl SceneArguments {
             },
             layer_scale: if self.layers.is_some() { 1.0 } else { self.quality.layer_scale() },
             shells: Shells::default(),
+            transparency: match self.transparency {
+                TransparencyChoice::PerPixel => Transparency::PerPixel,
+                TransparencyChoice::Weighted => Transparency::Weighted,
+                TransparencyChoice::Sorted => Transparency::Sorted,
+            },
             msaa: match self.msaa.as_deref() {
                 Some("1") => 1,
                 Some(_) => 4,

@@ -166,6 +166,9 @@ functions! {
     );
     fn cmd_end_query(commands: vk::CommandBuffer, pool: vk::QueryPool, query: u32);
     fn cmd_end_rendering(commands: vk::CommandBuffer);
+    fn cmd_fill_buffer(
+        commands: vk::CommandBuffer, buffer: vk::Buffer, offset: vk::DeviceSize, size: vk::DeviceSize, value: u32,
+    );
     fn cmd_pipeline_barrier2(commands: vk::CommandBuffer, info: &vk::DependencyInfo<'_>);
     fn cmd_push_constants(
         commands: vk::CommandBuffer, layout: vk::PipelineLayout, stages: vk::ShaderStageFlags, offset: u32,

@@ -199,6 +199,25 @@ impl Encoder {
         }
     }
 
+    /// Writes zeros over all bytes of the buffers, of which each is a multiple of 4, in a pass of that name.
+    pub fn clear_buffers(&mut self, name: &str, buffers: &[&Buffer]) {
+        let is_target = |buffer: &&&Buffer| buffer.0.usage.contains(vk::BufferUsageFlags::TRANSFER_DST);
+        if let Some(odd) = buffers.iter().find(|buffer| !buffer.bytes().is_multiple_of(4) || !is_target(buffer)) {
+            let problem = format!("{} bytes cannot be cleared: no multiple of 4, or no TRANSFER_DST", odd.bytes());
+            return self.fail(odd.0.range(problem));
+        }
+        if !self.begin_pass(name, PassKind::Copy, &[]) {
+            return;
+        }
+        for buffer in buffers {
+            self.kept.keep(&buffer.0);
+            let device = &self.gpu.context().device;
+            // SAFETY: usage and size were checked; the buffer is kept alive.
+            unsafe { device.cmd_fill_buffer(self.command_buffer, buffer.0.raw, 0, vk::WHOLE_SIZE, 0) };
+        }
+        self.end_pass(PassKind::Copy);
+    }
+
     /// Brings an image into the layout of a use outside of the passes, for example the host's.
     pub fn transition(&mut self, image: &Image, image_use: ImageUse) {
         if image_use == ImageUse::Undefined || image_use == ImageUse::Host(vk::ImageLayout::UNDEFINED) {

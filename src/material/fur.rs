@@ -70,7 +70,8 @@ crate::parameters! {
         blend: Blend as OneOf<Blend> = Blend::Cutout, UNBOUNDED, "", "How layers meet the frame: cutout, coverage or blend.";
         curl: f32 as Number = 0.0, UNIT, "", "How far strands coil, 1 = by their own spacing.";
         clump: f32 as Number = 0.0, UNIT, "", "How far tips of neighbouring strands draw together into locks.";
-        specular: f32 as Number = 0.5, UNIT, "", "Strength of the highlight along the strands.";
+        specular: f32 as Number = 0.5, UNIT, "", "Strength of the highlights along the strands: a white one off their surface, a coloured one from inside.";
+        transmission: f32 as Number = 0.5, UNIT, "", "Strength of the glow of strands with the light behind them.";
         roughness: f32 as Number = 0.35, UNIT, "", "Roughness of the strands along their length.";
     }
 }

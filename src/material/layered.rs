@@ -3,7 +3,7 @@
 //! A glTF material that uses one of them becomes this. One lobe alone has more to say in the family made for it: sheen in
 //! `cotton` and `velvet`, anisotropy in `satin`, iridescence in `laser`, diffuse transmission in `gauze`; but only here do
 //! they meet, and mean exactly what the file says. Khronos, KHR_materials_{sheen, clearcoat, anisotropy, iridescence,
-//! specular, ior, transmission, diffuse_transmission}.
+//! specular, ior, transmission, volume, diffuse_transmission}.
 
 use super::kind::{Map, Number, Rgb};
 use crate::asset::{MaterialExtensions, TextureRef};
@@ -33,8 +33,12 @@ crate::parameters! {
         diffuse_transmission_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: A is the local share.";
         diffuse_transmission_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Linear colour of the light that comes through.";
         diffuse_transmission_color_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Local colour of the light that comes through, sRGB-decoded.";
-        transmission: f32 as Number = 0.0, UNIT, "", "Share of the light that goes straight through, as of glass: shown as opacity, neither tinted nor blurred.";
+        transmission: f32 as Number = 0.0, UNIT, "", "Share of the light that goes straight through, tinted by the base colour, as of glass; it is neither refracted nor blurred.";
         transmission_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the local share.";
+        thickness: f32 as Number = 0.0, (0.0, 1e6), "mesh units", "Thickness of the body behind a front side, through which what goes straight through is absorbed; 0 is a thin wall.";
+        thickness_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: G is the local thickness.";
+        attenuation_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Linear colour that the body leaves of white light after attenuation_distance.";
+        attenuation_distance: f32 as Number = 1.0, (1e-6, 3.4e38), "m", "Way after which the body has that colour.";
         sheen_color: Vec3 as Rgb = Vec3::ZERO, UNIT, "", "Linear colour of the fuzz on the surface; black has none.";
         sheen_color_texture: Option<TextureRef> as Map = None, UNBOUNDED, "", "Local colour of the fuzz, sRGB-decoded.";
         sheen_roughness: f32 as Number = 0.0, UNIT, "", "How unruly the fuzz is: low shines at the rim alone, high all over.";
@@ -80,6 +84,12 @@ impl Layered {
             layered.transmission = through.factor;
             layered.transmission_texture = through.texture;
         }
+        if let Some(volume) = &extensions.volume {
+            layered.thickness = volume.thickness;
+            layered.thickness_texture = volume.thickness_texture;
+            layered.attenuation_color = volume.attenuation_color;
+            layered.attenuation_distance = volume.attenuation_distance_m;
+        }
         if let Some(sheen) = &extensions.sheen {
             layered.sheen_color = sheen.color;
             layered.sheen_color_texture = sheen.color_texture;
@@ -116,6 +126,11 @@ impl Layered {
     /// Whether light goes straight through.
     pub fn has_transmission(&self) -> bool {
         self.transmission > 0.0
+    }
+
+    /// Whether light that goes straight through is absorbed on its way.
+    pub fn has_volume(&self) -> bool {
+        self.has_transmission() && self.thickness > 0.0 && self.attenuation_color != Vec3::ONE
     }
 
     /// Whether there is fuzz.

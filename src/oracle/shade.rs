@@ -8,7 +8,7 @@ use super::walk::Hit;
 use crate::asset::{Asset, Primitive};
 use crate::material::reference::albedo::Fit;
 use crate::material::reference::standard::Surface;
-use crate::material::reference::{direction, light, strand, uv};
+use crate::material::reference::{direction, fibre, light, strand, uv};
 use crate::material::{AlphaMode, Fur, Standard};
 use crate::scene::{Light, LightKind, Size};
 use glam::{DVec2, DVec3, DVec4};
@@ -77,7 +77,7 @@ impl CoatDress {
             spot_map: fur.spot_map.map(|reference| Map::new(asset, reference, false)),
             projection_scale: 1.0 / f64::from(size.rest_radius),
             has_uv,
-            variance: strand::variance(fur.roughness.into()),
+            variance: fibre::variance(fur.roughness.into()),
             fur: fur.clone(),
         }
     }
@@ -181,14 +181,15 @@ impl Shading<'_> {
         let tangent = direction::or(of_corners(&|corner| tuft.triangle[corner].strand_at(height)), normal);
         let to_eye = self.eye.direction_to(place, normal);
         let color = dress.color(tuft, hit);
-        let (occlusion, specular) = (f64::from(fur.occlusion), f64::from(fur.specular));
-        let ambient = self.ambient_radiance * color * (1.0 - occlusion * (1.0 - height));
+        let occlusion = f64::from(fur.occlusion);
+        let (specular, transmission) = (fur.specular.into(), fur.transmission.into());
+        let fibre = fibre::Fibre::new(normal, tangent, to_eye, specular, transmission, dress.variance);
+        let depth = -(1.0 - occlusion * (1.0 - height)).max(1e-3).ln();
+        let ambient = self.ambient_radiance * color.map(|color| fibre.surroundings(color, 1.0, 1.0, 1.0, depth));
         let lit = self.lights.iter().map(|light| {
             let (to_light, irradiance) = incident(light, place);
-            let through = strand::light_through_coat(height, occlusion, normal.dot(to_light));
-            let scattered = color
-                .map(|color| strand::scattering(color, normal, tangent, to_eye, to_light, specular, dress.variance));
-            irradiance * through * scattered
+            let depth = strand::optical_depth(height, occlusion, normal.dot(to_light));
+            irradiance * color.map(|color| fibre.scattering(color, to_light, depth))
         });
         ambient + lit.sum::<DVec3>()
     }

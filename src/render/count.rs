@@ -78,14 +78,16 @@ impl Renderer {
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
         let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot)?;
+        let resources = &self.resources;
         let frame = Frame {
             scene,
             shot: &shot,
             options,
-            resources: &self.resources,
+            resources,
             motion: &motion,
             data: &data,
             atlas: None,
+            composition: None,
         };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
@@ -124,6 +126,13 @@ impl Renderer {
         }
         self.keep(scene, options);
         let pixels = options.size.iter().map(|side| u64::from(*side)).product();
+        if shot.plan.composition.is_some() {
+            // One fragment a pixel, too; with several samples it is dropped where nothing blends.
+            let blended = fragments.iter().find(|counted| counted.pass == Pass::Transparent);
+            let covered_pixels = blended.filter(|_| options.msaa > 1).map_or(pixels, |counted| counted.covered_pixels);
+            let pass = Pass::Transparency;
+            fragments.push(PassFragments { pass, rasterized: pixels, shaded: pixels, covered_pixels });
+        }
         fragments.push(PassFragments {
             pass: Pass::Tonemap,
             rasterized: pixels,

@@ -1,7 +1,7 @@
 //! One frame, as a script. Everything it needs has been made before; recording cannot fail.
 
 use super::options::Background;
-use super::pass::{Frame, Moving, deform, draws, order, shadow, sway, tonemap};
+use super::pass::{Frame, Moving, deform, draws, order, shadow, sway, tonemap, transparency};
 use super::plan::{Draw, Pass};
 use super::targets::Targets;
 use crate::gpu::{ColorTarget, DepthTarget, Encoder, Image, Load, RenderPassDesc};
@@ -13,9 +13,15 @@ pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &Targets, display: 
     if let Some(atlas) = frame.atlas {
         shadow::record(encoder, frame, atlas);
     }
+    if let Some(composition) = frame.composition {
+        transparency::clear(encoder, composition);
+    }
     let lists = draw_lists(frame);
     for (index, (pass, list)) in lists.iter().enumerate() {
         record_draws(encoder, frame, targets, *pass, list, index + 1 == lists.len());
+    }
+    if let Some(composition) = frame.composition {
+        transparency::record(encoder, frame, targets, composition);
     }
     tonemap::record(encoder, frame, display);
 }
@@ -45,22 +51,28 @@ pub fn record_motion(encoder: &mut Encoder, moving: &Moving) {
 /// The first pass clears, the last one resolves; those between keep what there is.
 fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: Pass, list: &[Draw], is_last: bool) {
     let is_first = pass == Pass::Opaque;
-    let resolve = targets.resolved.as_ref().filter(|_| is_last);
+    // One sample is resolved by composing alone.
+    let resolve = targets.resolved.as_ref().filter(|_| is_last && frame.options.msaa > 1);
     let color = [ColorTarget {
         image: &targets.color,
         load: if is_first { Load::Clear(clear_color(frame)) } else { Load::Keep },
-        store: resolve.is_none(),
+        store: resolve.is_none() || frame.composition.is_some(),
         resolve,
     }];
     let depth = Some(DepthTarget {
         image: &targets.depth,
         // Depth is reversed: 0 is infinitely far.
         load: if is_first { Load::Clear([0.0; 4]) } else { Load::Keep },
-        store: !is_last,
+        store: !is_last || frame.composition.is_some(),
     });
     let sampled: Vec<&Image> = frame.atlas.iter().flat_map(|atlas| &atlas.images).collect();
     let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &sampled };
-    encoder.render_pass(&desc, |pass| draws::record(pass, list, frame, 0));
+    encoder.render_pass(&desc, |pass| {
+        if let Some(composition) = frame.composition {
+            pass.bind(transparency::LIST_SET, composition.appending());
+        }
+        draws::record(pass, list, frame, 0);
+    });
 }
 
 /// Coverage starts at 0. A format without alpha cannot tell what was drawn: there the background is light.

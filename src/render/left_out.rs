@@ -32,7 +32,7 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
     if !plan.pipelines.iter().any(|spec| spec.blend) {
         list.add("blending pipeline", "no material blends");
     }
-    let most = Attachment::all(&FrameOptions { msaa: 4, ..options.clone() });
+    let most = Attachment::all(&FrameOptions { msaa: 4, ..options.clone() }, false);
     for left in most.iter().filter(|most| !plan.attachments.iter().any(|attachment| attachment.name == most.name)) {
         list.add(format!("attachment {}", left.name), "one sample a pixel was asked for");
     }
@@ -64,6 +64,8 @@ fn reason_of_pass(plan: &Plan, pass: Pass, options: &FrameOptions) -> &'static s
         Pass::Fur if plan.has_fur() => "every coat blends",
         Pass::Fur => "no triangles have a material with fur",
         Pass::Transparent => "no material blends",
+        Pass::Transparency if plan.transparent.is_empty() => "no material blends",
+        Pass::Transparency => "what blends is sorted by objects",
         Pass::Opaque | Pass::Tonemap => "not in this plan",
     }
 }

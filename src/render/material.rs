@@ -66,6 +66,7 @@ pub fn fur_uniforms(fur: &Fur, standard: &Standard, size: Size, layers: u32, for
         taper: fur.taper,
         occlusion: fur.occlusion,
         specular: fur.specular,
+        transmission: fur.transmission,
         roughness: fur.roughness,
         height_strength: fur.height_strength,
         clump: fur.clump,

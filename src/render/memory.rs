@@ -1,6 +1,7 @@
 //! What a plan takes on the device, known before the device is asked.
 
 use super::options::FrameOptions;
+use super::pass::transparency::Lists;
 use super::plan::{Plan, TextureUse};
 use super::stream::{ABSENT, Stream};
 use crate::asset::Asset;
@@ -68,6 +69,11 @@ impl Plan {
         }
         for &(name, format) in self.shadows.images() {
             add(name.to_owned(), self.shadows.bytes(format));
+        }
+        if self.composition.is_some() {
+            for (name, bytes) in Lists::first_bytes(options.size) {
+                add(name.to_owned(), bytes);
+            }
         }
         add(PICTURE_NAME.to_owned(), format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0));
         owners

@@ -37,8 +37,9 @@ pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
 pub use options::{
     Background, FrameOptions, HdrFormat, MAX_LAYERS, SHADOW_FILTERS_PX, SHADOW_RESOLUTIONS_PX, Shadows, ShellAlpha,
-    ShellOrder, ShellSampling, ShellSubmission, Shells, Tonemap,
+    ShellOrder, ShellSampling, ShellSubmission, Shells, Tonemap, Transparency,
 };
+pub use pass::transparency::ListUse;
 pub use picture::{Picture, PictureFormat};
 pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec, Target};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
@@ -58,9 +59,11 @@ use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
 use pass::tonemap::Display;
+use pass::transparency::{Composition, Lists};
 use pass::{Frame, Moving};
 use resources::Resources;
 use shadow::ShadowAtlas;
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -182,6 +185,8 @@ pub struct Renderer {
     atlas: Option<ShadowAtlas>,
     /// Strands that lag behind.
     sway: SwayMemory,
+    /// What blends, where the last frame had any.
+    lists: Option<Lists>,
 }
 
 impl Renderer {
@@ -208,6 +213,7 @@ impl Renderer {
             environment: None,
             atlas: None,
             sway: SwayMemory::default(),
+            lists: None,
         })
     }
 
@@ -243,18 +249,25 @@ impl Renderer {
         keep_radiance: bool,
     ) -> Result<(Picture, FrameReport), RenderError> {
         let (mut cpu, mut clock, before) = (CpuPhases::default(), Instant::now(), self.gpu.calls());
+        let options = &*self.options_here(options);
         let shot = Shot::new(scene, options)?;
         cpu.plan_ms = lap_ms(&mut clock);
         let target = self.take_picture_target(options.size)?;
-        let mut encoder = self.gpu.encoder("frame")?;
-        let prepared = self.prepare(scene, &shot, options, target.format())?;
-        cpu.prepare_ms = lap_ms(&mut clock);
-        self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
-        cpu.record_ms = lap_ms(&mut clock);
-        let submission = encoder.submit()?;
-        cpu.submit_ms = lap_ms(&mut clock);
-        let times = submission.wait(FRAME_TIMEOUT_MS)?;
-        cpu.wait_ms = lap_ms(&mut clock);
+        // Again where more blends than there was room for, which is known once it is drawn.
+        let times = loop {
+            let mut encoder = self.gpu.encoder("frame")?;
+            let prepared = self.prepare(scene, &shot, options, target.format())?;
+            cpu.prepare_ms += lap_ms(&mut clock);
+            self.record_prepared(&mut encoder, scene, &shot, options, prepared, &target)?;
+            cpu.record_ms += lap_ms(&mut clock);
+            let submission = encoder.submit()?;
+            cpu.submit_ms += lap_ms(&mut clock);
+            let times = submission.wait(FRAME_TIMEOUT_MS)?;
+            cpu.wait_ms += lap_ms(&mut clock);
+            if self.larger_lists()?.is_none() {
+                break times;
+            }
+        };
         let calls = self.gpu.calls().since(&before);
 
         let mut radiance = Vec::new();
@@ -272,7 +285,8 @@ impl Renderer {
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
-        let report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
+        let mut report = FrameReport::new(scene, &shot.plan, times, cpu, pipelines_ms, self.gpu.memory(), calls);
+        report.lists = self.lists.as_ref().map(Lists::in_use).transpose()?;
         Ok((picture, report))
     }
 
@@ -288,6 +302,7 @@ impl Renderer {
         options: &FrameOptions,
         target: &Image,
     ) -> Result<(), RenderError> {
+        let options = &*self.options_here(options);
         let shot = Shot::new(scene, options)?;
         let prepared = self.prepare(scene, &shot, options, target.format())?;
         self.record_prepared(encoder, scene, &shot, options, prepared, target)
@@ -328,16 +343,27 @@ impl Renderer {
         options: &FrameOptions,
         target_format: vk::Format,
     ) -> Result<Prepared, RenderError> {
-        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options)) {
-            // The old ones go first: two sets need not fit at once.
+        let lists = shot.plan.composition.is_some();
+        // The old ones go first: two sets need not fit at once.
+        if !self.targets.as_ref().is_some_and(|targets| targets.fit(options, lists)) {
             self.targets = None;
+        }
+        let larger = self.larger_lists()?;
+        if larger.is_some() || !self.lists.as_ref().is_some_and(|kept| lists && kept.fit(options.size)) {
+            self.lists = None;
         }
         let motion = self.prepare_motion(scene, shot, options)?;
         if self.targets.is_none() {
-            self.targets = Some(Targets::new(&self.gpu, options)?);
+            self.targets = Some(Targets::new(&self.gpu, options, lists)?);
+        }
+        if lists && self.lists.is_none() {
+            let capacity = larger.unwrap_or(Lists::first_capacity(options.size));
+            self.lists = Some(Lists::new(&self.gpu, options.size, capacity)?);
         }
         let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
-        self.resources.make_pipeline(&tonemap)?;
+        for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
+            self.resources.make_pipeline(spec)?;
+        }
         if shot.plan.is_lit() {
             self.prepare_environment(&shot.lighting.surroundings.environment)?;
         }
@@ -396,10 +422,27 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
         let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
-        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, atlas: self.atlas.as_ref() };
+        let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
+        let (composition, atlas) = (composition.as_ref(), self.atlas.as_ref());
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, atlas, composition };
         frame::record(encoder, &frame, targets, &display);
+        self.lists.iter_mut().for_each(Lists::keep_count);
         self.keep(scene, options);
         Ok(())
+    }
+
+    /// The options as this device can meet them: lists need fragment shaders that write memory.
+    fn options_here<'a>(&self, options: &'a FrameOptions) -> Cow<'a, FrameOptions> {
+        match self.gpu.info().fragment_stores || options.transparency == Transparency::Sorted {
+            true => Cow::Borrowed(options),
+            false => Cow::Owned(FrameOptions { transparency: Transparency::Sorted, ..options.clone() }),
+        }
+    }
+
+    /// Entries that the last frame would have needed, where there can be more than there are. A frame of the host's tells
+    /// the next one, once it has been drawn.
+    fn larger_lists(&self) -> Result<Option<u32>, RenderError> {
+        Ok(self.lists.as_ref().map(|lists| lists.larger_capacity(&self.gpu)).transpose()?.flatten())
     }
 
     /// The picture's image; put it back into `self.picture` for the next frame.

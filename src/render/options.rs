@@ -47,6 +47,8 @@ pub struct FrameOptions {
     pub layer_scale: f32,
     /// How shells are drawn.
     pub shells: Shells,
+    /// How what blends is laid over each other.
+    pub transparency: Transparency,
     /// Samples a pixel: 1 or 4.
     pub msaa: u32,
     /// Draws the frame with everything that a plan can leave out: every pass, the largest permutations with texels that
@@ -73,6 +75,7 @@ impl Default for FrameOptions {
             layers: None,
             layer_scale: 1.0,
             shells: Shells::default(),
+            transparency: Transparency::default(),
             msaa: 4,
             everything: false,
         }
@@ -199,6 +202,20 @@ impl Default for Shadows {
     fn default() -> Self {
         Self { are_cast: true, resolution_px: 1024, filter_px: 2 }
     }
+}
+
+/// How layers that blend are laid over each other. The default is right wherever they cross and whatever the order of the
+/// file; the others are the ways of other renderers, there to be measured against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Transparency {
+    /// Sample by sample, sorted by depth, in colours. Falls back to [`Self::Sorted`] where fragment shaders cannot write
+    /// memory.
+    #[default]
+    PerPixel,
+    /// Sample by sample, unsorted: by weights that fall with the distance (McGuire & Bavoil 2013).
+    Weighted,
+    /// Object by object, each side of a surface by its mean depth; what passes is dimmed, not tinted.
+    Sorted,
 }
 
 /// How shells are made and drawn. The default is what vair is for; the others are the ways of other renderers, and ours

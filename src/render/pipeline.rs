@@ -4,7 +4,7 @@
 use super::cloth::ClothShader;
 use super::lit::Lit;
 use super::map::{Map, fur_maps, surface_maps};
-use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap};
+use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap, Transparency};
 use super::shadow::LAYER_FORMAT;
 use super::table::Table;
 use crate::asset::{Primitive, Topology};
@@ -157,6 +157,7 @@ impl PipelineSpec {
         ];
         fragment_defines.extend(cloth.into_iter().flat_map(|cloth| cloth.defines).map(|define| (*define, true)));
         fragment_defines.push(("OCCLUDED", lit.is_occluded() && !unlit));
+        fragment_defines.push(("LIST", blend && options.transparency != Transparency::Sorted));
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
@@ -182,6 +183,7 @@ impl PipelineSpec {
     pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, lit: Lit, options: &FrameOptions) -> Self {
         let Shells { sampling, alpha, submission, order } = options.shells;
         let blend = fur.blend == Blend::Blend || order == ShellOrder::Blended;
+        let lists = blend && options.transparency != Transparency::Sorted;
         let all_maps = fur_maps(fur, standard);
         // A distribution map is another way to place strands, so nothing can stand in for it.
         let is_sampled =
@@ -207,7 +209,10 @@ impl PipelineSpec {
         constants.extend(lit.constants());
         Self {
             vertex: permutation("fur.vert", &vertex_defines),
-            fragment: permutation("fur.frag", &[("MAPS", has_maps), ("COLOR", color), ("OCCLUDED", lit.is_occluded())]),
+            fragment: permutation(
+                "fur.frag",
+                &[("MAPS", has_maps), ("COLOR", color), ("OCCLUDED", lit.is_occluded()), ("LIST", lists)],
+            ),
             constants,
             topology: Topology::Triangles,
             target: Target::Color,
@@ -282,6 +287,26 @@ impl PipelineSpec {
             samples: 1,
             color_format: if layers.1 { LAYER_FORMAT } else { vk::Format::UNDEFINED },
         }
+    }
+
+    /// The pipeline that composes the lists of what blends over the opaque picture.
+    pub fn composition(options: &FrameOptions) -> Self {
+        Self {
+            vertex: "tonemap.vert".to_owned(),
+            fragment: permutation("transparency.frag", &[("MULTISAMPLE", options.msaa > 1)]),
+            constants: vec![("WEIGHTED", u32::from(options.transparency == Transparency::Weighted))],
+            topology: Topology::Triangles,
+            target: Target::Color,
+            blend: false,
+            depth: DepthUse::None,
+            samples: 1,
+            color_format: options.hdr_format.vulkan(),
+        }
+    }
+
+    /// Whether its fragments go to lists instead of the picture.
+    pub fn lists(&self) -> bool {
+        self.fragment.split('+').any(|define| define == "LIST")
     }
 
     /// The pipeline that makes a picture of `target_format` from the HDR image.

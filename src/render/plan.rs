@@ -114,13 +114,15 @@ pub enum Pass {
     Fur,
     /// Blended surfaces and coats, far to near.
     Transparent,
+    /// Lists of what blends over what is opaque.
+    Transparency,
     /// HDR to picture.
     Tonemap,
 }
 
 impl Pass {
     /// All, in their order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Deform,
         Self::Sway,
         Self::Shadow,
@@ -130,6 +132,7 @@ impl Pass {
         Self::Opaque,
         Self::Fur,
         Self::Transparent,
+        Self::Transparency,
         Self::Tonemap,
     ];
 
@@ -145,6 +148,7 @@ impl Pass {
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
+            Self::Transparency => "transparency",
             Self::Tonemap => "tonemap",
         }
     }
@@ -179,6 +183,8 @@ pub struct Plan {
     pub fur: Vec<Draw>,
     /// Draws of the transparent pass, unsorted.
     pub transparent: Vec<Draw>,
+    /// The pipeline that composes lists of what blends; `None` where nothing is listed.
+    pub composition: Option<PipelineSpec>,
     /// Vertex streams to upload, by (mesh, primitive).
     pub streams: BTreeMap<(usize, usize), BTreeSet<Stream>>,
     /// Primitives, by (mesh, primitive), whose vertices and indices are uploaded once a shell, and how often that is.
@@ -209,8 +215,7 @@ impl Plan {
     ) -> Self {
         let lit = Lit::new(scene, &instances, &maps, options);
         let shadows = ShadowPlan::new(maps, lit, options);
-        let mut plan =
-            Self { instances, lit, lights, shadows, attachments: Attachment::all(options), ..Self::default() };
+        let mut plan = Self { instances, lit, lights, shadows, ..Self::default() };
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
@@ -291,7 +296,8 @@ impl Plan {
             DrawKind::Fur { .. } => true,
         };
         let faces: &[Faces] = match is_two_sided {
-            true if spec.blend && geometry.topology == Topology::Triangles => {
+            // Lists take both sides at once, in whatever order.
+            true if spec.blend && !spec.lists() && geometry.topology == Topology::Triangles => {
                 &[Faces::One(Side::Back), Faces::One(Side::Front)]
             }
             true => &[Faces::Both],
@@ -404,6 +410,9 @@ impl Plan {
     }
 
     fn add_passes(&mut self, options: &FrameOptions) {
+        let lists = self.pipelines.iter().any(PipelineSpec::lists);
+        self.composition = lists.then(|| PipelineSpec::composition(options));
+        self.attachments = Attachment::all(options, lists);
         // One pipeline after another: state changes cost more than order saves among opaque surfaces.
         self.opaque.sort_by_key(|draw| draw.pipeline);
         for (pass, wanted) in [
@@ -416,6 +425,7 @@ impl Plan {
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),
+            (Pass::Transparency, self.composition.is_some()),
             (Pass::Tonemap, true),
         ] {
             let is_shadow = matches!(pass, Pass::Shadow | Pass::ShadowFront | Pass::ShadowBack | Pass::ShadowLayers);

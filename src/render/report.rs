@@ -1,6 +1,7 @@
 //! What one frame took: times, draws, memory, and what it left out.
 
 use super::left_out::LeftOut;
+use super::pass::transparency::ListUse;
 use super::plan::{DrawKind, Plan};
 use crate::gpu::{CallCounts, FrameTimes, MemoryReport, PassTime};
 use crate::scene::Scene;
@@ -21,6 +22,8 @@ pub struct FrameReport {
     pub passes: Vec<PassTime>,
     /// Coats.
     pub fur: Vec<CoatReport>,
+    /// What blended; `None` where nothing was listed.
+    pub lists: Option<ListUse>,
     /// Device memory.
     pub memory: MemoryReport,
     /// Vulkan calls and bytes from the call to the finished frame.
@@ -82,6 +85,7 @@ impl FrameReport {
             pipelines_ms,
             passes: times.passes,
             fur: coats(scene, plan),
+            lists: None,
             memory,
             calls,
             left_out: plan.left_out.clone(),

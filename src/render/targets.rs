@@ -19,27 +19,31 @@ pub struct Attachment {
 
 impl Attachment {
     /// Linear HDR colour at the samples asked for.
-    fn color(options: &FrameOptions) -> Self {
+    fn color(options: &FrameOptions, lists: bool) -> Self {
         let drawn = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        let usage = if options.msaa > 1 { drawn } else { drawn | vk::ImageUsageFlags::SAMPLED };
+        let usage = if options.msaa > 1 && !lists { drawn } else { drawn | vk::ImageUsageFlags::SAMPLED };
         Self { name: "hdr color", format: options.hdr_format.vulkan(), samples: options.msaa, usage }
     }
 
-    /// Linear HDR colour at one sample; `None` where the colour is that already.
-    fn resolved(options: &FrameOptions) -> Option<Self> {
+    /// Linear HDR colour at one sample, and with all that blends; `None` where the colour is that already.
+    fn resolved(options: &FrameOptions, lists: bool) -> Option<Self> {
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-        (options.msaa > 1).then_some(Self { name: "hdr color resolved", samples: 1, usage, ..Self::color(options) })
+        let resolved = Self { name: "hdr color resolved", samples: 1, usage, ..Self::color(options, lists) };
+        (options.msaa > 1 || lists).then_some(resolved)
     }
 
     /// Reversed depth.
-    fn depth(options: &FrameOptions) -> Self {
-        let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+    fn depth(options: &FrameOptions, lists: bool) -> Self {
+        let drawn = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+        // Lists ask it, sample by sample, what is hidden.
+        let usage = if options.msaa > 1 && lists { drawn | vk::ImageUsageFlags::SAMPLED } else { drawn };
         Self { name: "depth", format: DEPTH_FORMAT, samples: options.msaa, usage }
     }
 
-    /// All that a frame with these options draws into, but for the picture, which may be the host's.
-    pub fn all(options: &FrameOptions) -> Vec<Self> {
-        [Some(Self::color(options)), Self::resolved(options), Some(Self::depth(options))]
+    /// All that a frame with these options draws into, but for the picture, which may be the host's; `lists` where what
+    /// blends is listed.
+    pub fn all(options: &FrameOptions, lists: bool) -> Vec<Self> {
+        [Some(Self::color(options, lists)), Self::resolved(options, lists), Some(Self::depth(options, lists))]
             .into_iter()
             .flatten()
             .collect()
@@ -61,7 +65,7 @@ pub struct Targets {
     key: ([u32; 2], Vec<Attachment>),
     /// Linear HDR colour at the samples asked for.
     pub color: Image,
-    /// Linear HDR colour at one sample; `None` where `color` is that already.
+    /// Linear HDR colour at one sample, and with all that blends; `None` where `color` is that already.
     pub resolved: Option<Image>,
     /// Reversed depth.
     pub depth: Image,
@@ -72,19 +76,20 @@ impl Targets {
     ///
     /// # Errors
     /// When the device is out of memory or the size is beyond its limits.
-    pub fn new(gpu: &Gpu, options: &FrameOptions) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, options: &FrameOptions, lists: bool) -> Result<Self, GpuError> {
         let size = options.size;
+        let resolved = Attachment::resolved(options, lists);
         Ok(Self {
-            key: (size, Attachment::all(options)),
-            color: Attachment::color(options).create(gpu, size)?,
-            resolved: Attachment::resolved(options).map(|resolved| resolved.create(gpu, size)).transpose()?,
-            depth: Attachment::depth(options).create(gpu, size)?,
+            key: (size, Attachment::all(options, lists)),
+            color: Attachment::color(options, lists).create(gpu, size)?,
+            resolved: resolved.map(|resolved| resolved.create(gpu, size)).transpose()?,
+            depth: Attachment::depth(options, lists).create(gpu, size)?,
         })
     }
 
     /// Whether they serve these options, too.
-    pub fn fit(&self, options: &FrameOptions) -> bool {
-        self.key == (options.size, Attachment::all(options))
+    pub fn fit(&self, options: &FrameOptions, lists: bool) -> bool {
+        self.key == (options.size, Attachment::all(options, lists))
     }
 
     /// The one-sample HDR image that later passes read.

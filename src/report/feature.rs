@@ -142,11 +142,16 @@ fn points(question: &Question) -> Vec<(&Method, u32, View)> {
 
 /// Milliseconds of a measurement by a clock.
 pub fn spread(measurement: &Measurement, clock: Clock) -> Spread {
+    spread_of(&measurement.frames, clock)
+}
+
+/// Milliseconds of frames by a clock.
+pub fn spread_of(frames: &[FrameMs], clock: Clock) -> Spread {
     let ms = |frame: &FrameMs| match clock {
         Clock::Device => frame.passes.unwrap_or(frame.wall),
         Clock::Wall => frame.wall,
     };
-    Spread::of(&measurement.frames.iter().map(ms).collect::<Vec<_>>())
+    Spread::of(&frames.iter().map(ms).collect::<Vec<_>>())
 }
 
 fn picture_feature(question: &Question, sweep: &Sweep, effort: &Effort, clock: Clock) -> Feature {
@@ -179,7 +184,8 @@ fn picture_feature(question: &Question, sweep: &Sweep, effort: &Effort, clock: C
     }
 }
 
-fn mark_fronts(points: &mut [Point]) {
+/// Marks, before each camera, the points that no other beats in both time and error.
+pub fn mark_fronts(points: &mut [Point]) {
     let mut cameras: Vec<&str> = points.iter().map(|point| point.camera).collect();
     cameras.dedup();
     for camera in cameras {

@@ -16,6 +16,7 @@ mod question;
 pub mod statistics;
 mod sweep;
 mod table;
+mod transparency;
 
 pub use case::View;
 pub use curve::Curve;
@@ -150,5 +151,7 @@ pub fn measure(
     recipes.extend(headline::recipes(cases.default_layers));
     let sweep = sweep::sweep(gpu, &cases, &recipes, effort, progress)?;
     progress("furnace", 0, 1);
-    Ok(Report::new(gpu.info(), questions, &cases, &sweep, effort))
+    let mut report = Report::new(gpu.info(), questions, &cases, &sweep, effort);
+    report.features.push(transparency::feature(gpu, effort, report.clock, progress)?);
+    Ok(report)
 }

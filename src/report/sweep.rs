@@ -6,7 +6,7 @@ use super::question::Method;
 use super::{Effort, Progress, ReportError};
 use crate::gpu::Gpu;
 use crate::oracle::{self, OracleOptions};
-use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shadows, Shells, Shot};
+use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shadows, Shells, Shot, Transparency};
 use crate::scene::Surroundings;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -42,6 +42,8 @@ impl Recipe {
             layers: Some(self.layers),
             shells: self.shells,
             msaa: self.msaa,
+            // Shells that blend are drawn in their order: lists would measure something else.
+            transparency: Transparency::Sorted,
             // What the oracle knows.
             surroundings: Surroundings::constant(Vec3::splat(0.05)),
             shadows: Shadows { are_cast: false, ..Shadows::default() },
@@ -65,13 +67,20 @@ pub struct FrameMs {
 
 impl FrameMs {
     fn new(report: &FrameReport) -> Self {
-        let sum = |wanted: &[Pass]| {
-            let passes = report.passes.iter().filter(|pass| wanted.iter().any(|wanted| wanted.name() == pass.name));
-            passes.map(|pass| pass.gpu_ms).sum::<Option<f64>>()
-        };
         let coat = [Pass::Fur, Pass::Transparent];
-        Self { passes: sum(&[Pass::Opaque, coat[0], coat[1]]), coat: sum(&coat), wall: report.frame_ms }
+        Self { coat: sum(report, &coat), ..Self::of(report, &[Pass::Opaque, coat[0], coat[1]]) }
     }
+
+    /// With these passes, and no coat.
+    pub fn of(report: &FrameReport, passes: &[Pass]) -> Self {
+        Self { passes: sum(report, passes), coat: None, wall: report.frame_ms }
+    }
+}
+
+/// Milliseconds of passes by the device's timestamps.
+fn sum(report: &FrameReport, wanted: &[Pass]) -> Option<f64> {
+    let passes = report.passes.iter().filter(|pass| wanted.iter().any(|wanted| wanted.name() == pass.name));
+    passes.map(|pass| pass.gpu_ms).sum()
 }
 
 /// What was measured of a recipe.

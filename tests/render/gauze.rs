@@ -75,9 +75,9 @@ fn lit_gauze_has_the_radiance_and_the_opacity_of_its_twin() {
                         device.picture(&one_quad(gauze, angle_deg, to_light), &options([4, 4], 1)).radiance(2, 2);
                     let (radiance, opacity) = expected(gauze, angle_deg, to_light);
                     let at = format!("{gauze:?} at {angle_deg}, light {to_light}");
-                    // Coverage is a half float too.
+                    // Coverage is a half float too, and what passes has steps of 1/4095 before.
                     checks.push(close(&at, found, radiance));
-                    checks.push(within(&at, Vec4::splat(found.w), DVec3::splat(opacity), 1e-3, 1e-5));
+                    checks.push(within(&at, Vec4::splat(found.w), DVec3::splat(opacity), 1e-3, 0.5 / 4095.0));
                 }
             }
         }
@@ -174,7 +174,7 @@ fn opaque_gauze_does_not_blend_and_a_missing_map_is_not_bound() {
         Shot::new(&scene, &options([4, 4], 1)).unwrap().plan
     };
     let sheer = shot(&Gauze::default());
-    assert!(sheer.opaque.is_empty() && sheer.transparent.len() == 2, "back and front");
+    assert!(sheer.opaque.is_empty() && sheer.transparent.len() == 1, "both sides at once");
     assert!(sheer.textures.is_empty() && sheer.stand_ins.is_empty());
     let opaque = shot(&Gauze { weave_density: 0.0, ..Gauze::default() });
     assert!(opaque.transparent.is_empty() && opaque.opaque.len() == 1);

@@ -84,6 +84,7 @@ fn dresses() -> Vec<MaterialExtensions> {
             specular: specular(),
             ior: Some(1.7),
             transmission: Some(Box::new(transmission())),
+            volume: None,
             diffuse_transmission: Some(Box::new(scattering())),
         },
     ]
@@ -143,6 +144,8 @@ fn radiance(material: &Material, v: DVec3, l: DVec3) -> (DVec3, f64) {
     let coat_left =
         varnish.map_or(1.0, |layer| 1.0 - f64::from(layer.factor) * coat(layer.roughness.into()).albedo(&fit, v).x);
     let behind = through(straight, metallic, DVec3::splat(GREY.into()), base.lobe.albedo(&fit, v));
+    // A picture has one opacity.
+    let behind = behind.element_sum() / 3.0;
     (own, 1.0 - behind * fuzz_left * coat_left)
 }
 

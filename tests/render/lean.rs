@@ -12,7 +12,9 @@ use vair::asset::{Sampler, Topology};
 use vair::gpu::CallCounts;
 use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shot, Target};
 use vair::scene::{CameraChoice, Scene};
-use vair::shader::layout::{FrameUniforms, FurUniforms, LightSource, ObjectUniforms, ShadowSource, StandardUniforms};
+use vair::shader::layout::{
+    FrameUniforms, FurUniforms, LightSource, ObjectUniforms, ShadowSource, StandardUniforms, TransparencyEntries,
+};
 
 /// Four floats, as stand-ins are; two of them for absent streams.
 const TEXEL_BYTES: u64 = 16;
@@ -109,7 +111,7 @@ fn deform_sources(scene: &Scene, plan: &Plan) -> (u64, u64) {
     (buffers, bytes)
 }
 
-/// Draw calls: what blends and has two sides is drawn side by side.
+/// Draw calls: what blends and has two sides is drawn side by side, if it is not listed.
 fn draw_calls(scene: &Scene, plan: &Plan) -> u64 {
     let sides = |draw: &Draw| {
         let double_sided = match draw.kind {
@@ -117,7 +119,7 @@ fn draw_calls(scene: &Scene, plan: &Plan) -> u64 {
             DrawKind::Fur { .. } => true,
         };
         let spec = &plan.pipelines[draw.pipeline];
-        if double_sided && spec.blend && spec.topology == Topology::Triangles { 2 } else { 1 }
+        if double_sided && spec.blend && !spec.lists() && spec.topology == Topology::Triangles { 2 } else { 1 }
     };
     recorded(plan).iter().map(sides).sum()
 }
@@ -139,21 +141,24 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
     // What stands in is not filtered.
     let unfiltered = plan.stand_ins.iter().map(|_| NEAREST);
     let samplers: HashSet<Sampler> = plan.samplers.iter().copied().chain(unfiltered).collect();
-    let staging = 1;
+    // Its pipeline; count, heads, entries, and where they are read; the entries' header, which is uploaded by itself.
+    let composes = u64::from(plan.composition.is_some());
+    let staging = 1 + composes;
+    let header = composes * size_of::<TransparencyEntries>() as u64;
     for (name, expected) in [
         // The tone mapping is always there, and never planned: it depends on the target.
-        ("vkCreateGraphicsPipelines", plan.pipelines.len() as u64 + 1),
+        ("vkCreateGraphicsPipelines", plan.pipelines.len() as u64 + 1 + composes),
         ("vkCreateComputePipelines", plan.compute_pipelines.len() as u64),
         ("vkCreateImage", images as u64),
         // Level 0 has a view of its own where there are more.
         ("vkCreateImageView", (images + mipmapped) as u64),
         // What strands remember from frame to frame is a buffer a coat.
-        ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64),
+        ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64 + 4 * composes),
         ("vkCreateSampler", samplers.len() as u64 + u64::from(plan.shadows.is_bound)),
-        ("vkCmdCopyBuffer", kept),
+        ("vkCmdCopyBuffer", kept + 2 * composes),
         ("vkCmdBeginRendering", raster),
         ("vkCmdDrawIndexed", draw_calls(scene, plan)),
-        ("vkCmdDraw", 1),
+        ("vkCmdDraw", 1 + composes),
         ("vkCmdDispatch", (plan.deforms.len() + plan.sways.len()) as u64),
         ("vkCmdBindVertexBuffers2", inputs as u64),
         ("vkCmdBindIndexBuffer", recorded(plan).len() as u64),
@@ -166,7 +171,8 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
         + plan.stand_ins.len() as u64 * TEXEL_BYTES
         + absent * ABSENT_BYTES
         + surfaces(plan) * size_of::<StandardUniforms>() as u64
-        + source_bytes;
+        + source_bytes
+        + header;
     assert_eq!(report.calls.uploaded_bytes, kept_bytes + per_frame.bytes, "{what}: bytes");
     for (owner, bytes) in plan.memory(scene, frame) {
         let held = report.memory.by_owner.iter().find(|(name, _)| *name == owner).map_or(0, |(_, held)| *held);
@@ -184,7 +190,7 @@ fn later_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, calls
         ("vkCreateImage", 0),
         ("vkCreateSampler", 0),
         ("vkCreateShaderModule", 0),
-        ("vkCmdCopyBuffer", 0),
+        ("vkCmdCopyBuffer", u64::from(shot.plan.composition.is_some())),
         ("vkCmdCopyBufferToImage", 0),
         ("vkCreateBuffer", per_frame.buffers),
         ("vkCmdDrawIndexed", draw_calls(scene, &shot.plan)),

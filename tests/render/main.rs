@@ -45,5 +45,6 @@ mod submission;
 mod surface;
 mod sway;
 mod texture;
+mod transparency;
 mod turned;
 mod variants;

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
 use vair::material::{Blend, Cloth, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
-use vair::render::{FrameOptions, Plan, Shot, Target};
+use vair::render::{FrameOptions, Plan, Shot, Target, Transparency};
 use vair::scene::{Light, Scene};
 use vair::shader::table;
 
@@ -69,7 +69,7 @@ fn surfaces() -> Scene {
 }
 
 /// One quad for each thing that a cloth's shader may have, of every family.
-fn cloths() -> Scene {
+fn cloths(alpha_mode: AlphaMode) -> Scene {
     let mut stage = Stage::front(0.5);
     let map = stage.texel([128, 128, 255, 255]);
     let mut dressed = Vec::new();
@@ -84,7 +84,7 @@ fn cloths() -> Scene {
                 (false, true, true),
             ] {
                 let base_color_texture = textured.then_some(map);
-                let material = stage.material(Material { base_color_texture, ..plain() });
+                let material = stage.material(Material { base_color_texture, alpha_mode, ..plain() });
                 stage.object(colored(has_color), material, at(Vec3::ZERO));
                 dressed.push((material, cloth.clone(), detailed, own_maps));
             }
@@ -162,9 +162,13 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     // The last pass is not planned: it depends on the target.
     let mut used = BTreeSet::from(["tonemap.vert".to_owned(), "tonemap.frag".to_owned()]);
     // Their pipelines are made below, beside these.
-    for lights in [vec![Light::key()], Vec::new()] {
-        let plan = plan_of(&cloths(), lights);
-        used.extend(plan.pipelines.into_iter().flat_map(|spec| [spec.vertex, spec.fragment]));
+    for alpha_mode in [AlphaMode::Opaque, AlphaMode::Blend] {
+        for transparency in [Transparency::PerPixel, Transparency::Sorted] {
+            for lights in [vec![Light::key()], Vec::new()] {
+                let plan = plan_of(&cloths(alpha_mode), transparency, lights);
+                used.extend(plan.pipelines.into_iter().flat_map(|spec| [spec.vertex, spec.fragment]));
+            }
+        }
     }
     headless(|device| {
         // A light casts shadows, and without one nothing is occluded.
@@ -180,6 +184,7 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
                         .filter(|spec| spec.target == Target::Color)
                         .map(|spec| spec.counting().fragment),
                 );
+                used.extend(plan.composition.iter().map(|spec| spec.fragment.clone()));
                 used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader.clone()));
                 device.picture(scene, &frame);
                 device.renderer.count_fragments(scene, &frame).unwrap_or_else(|error| panic!("{error}"));
@@ -191,19 +196,22 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     });
 }
 
-fn plan_of(scene: &Scene, lights: Vec<Light>) -> Plan {
-    let frame = FrameOptions { lights, ..options([4, 4], 4) };
+fn plan_of(scene: &Scene, transparency: Transparency, lights: Vec<Light>) -> Plan {
+    let frame = FrameOptions { transparency, lights, ..options([4, 4], 4) };
     Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan
 }
 
 #[test]
 fn every_pipeline_of_cloth_can_be_made() {
-    let scene = cloths();
+    let scenes = [AlphaMode::Opaque, AlphaMode::Blend].map(cloths);
     headless(|device| {
-        let lights = vec![Light::key()];
-        device.picture(&scene, &options([4, 4], 4));
-        device.picture(&scene, &FrameOptions { lights: lights.clone(), ..options([4, 4], 4) });
-        let made = device.renderer.pipeline_descriptions().len();
-        assert!(made >= plan_of(&scene, lights).pipelines.len() && made > 5 * Cloth::KINDS.len(), "{made}");
+        for scene in &scenes {
+            for lights in [vec![Light::key()], Vec::new()] {
+                device.picture(scene, &FrameOptions { lights: lights.clone(), ..options([4, 4], 4) });
+                let made = device.renderer.pipeline_descriptions().len();
+                let planned = plan_of(scene, Transparency::PerPixel, lights).pipelines.len();
+                assert!(made >= planned && made > 5 * Cloth::KINDS.len(), "{made}");
+            }
+        }
     });
 }

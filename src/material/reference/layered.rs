@@ -175,8 +175,7 @@ impl Stack<'_> {
     }
 }
 
-/// Share of the light from straight behind that comes through, by luminance (Rec. 709).
-pub fn through(transmission: f64, metallic: f64, base_color: DVec3, albedo: DVec3) -> f64 {
-    let luminance = (base_color * (1.0 - albedo)).dot(DVec3::new(0.2126, 0.7152, 0.0722));
-    transmission * (1.0 - metallic) * luminance
+/// Share of the light from straight behind that comes through: what the base does not reflect, tinted by its colour.
+pub fn through(transmission: f64, metallic: f64, base_color: DVec3, albedo: DVec3) -> DVec3 {
+    transmission * (1.0 - metallic) * base_color * (1.0 - albedo)
 }

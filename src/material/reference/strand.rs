@@ -238,81 +238,15 @@ pub fn bend_angle(root_direction: DVec3, force: DVec3) -> f64 {
     (force.length() * sideways.atan2(along)).min(FRAC_PI_2 * sideways)
 }
 
-/// Light through the coat above a height.
-pub fn light_through_coat(height: f64, occlusion: f64, cosine_to_light: f64) -> f64 {
-    ((1.0 - occlusion).max(1e-3).ln() * (1.0 - height) / cosine_to_light.max(0.05)).exp()
-}
-
-/// Cosine around the fibre of a direction along it, which has none: there cos(phi / 2) takes its mean, 2 / pi.
-pub const COSINE_ALONG: f64 = 8.0 / (PI * PI) - 1.0;
-
-/// One scattering lobe of a fibre; its integral over all directions is at most 1.
-pub fn lobe(tangent: DVec3, to_eye: DVec3, to_light: DVec3, shift: f64, variance: f64) -> f64 {
-    let (sine_eye, sine_light) = (tangent.dot(to_eye), tangent.dot(to_light));
-    let along = (-(sine_eye + sine_light - shift).powi(2) / (2.0 * variance)).exp() / (2.0 * PI * variance).sqrt();
-    let (eye, light) = (to_eye - sine_eye * tangent, to_light - sine_light * tangent);
-    let lengths = eye.length_squared() * light.length_squared();
-    let cosine = if lengths > 1e-12 { eye.dot(light) / lengths.sqrt() } else { COSINE_ALONG };
-    along * 0.25 * (0.5 + 0.5 * cosine).max(0.0).sqrt()
-}
-
-/// Variance of a lobe from longitudinal roughness (Chiang et al. 2016, equation 7).
-pub fn variance(roughness: f64) -> f64 {
-    let b = roughness.clamp(0.1, 1.0);
-    (0.726 * b + 0.812 * b * b + 3.7 * b.powi(20)).powi(2)
-}
-
-/// Radiance per unit irradiance of a strand, one colour channel.
-#[allow(clippy::too_many_arguments)] // the shader's own list
-pub fn scattering(
-    color: f64,
-    normal: DVec3,
-    tangent: DVec3,
-    to_eye: DVec3,
-    to_light: DVec3,
-    specular: f64,
-    variance: f64,
-) -> f64 {
-    let wrap = 0.3;
-    let (reflected, returned, tilt) = (0.10 * specular, 0.30 * specular, 0.08);
-    let across = (1.0 - tangent.dot(to_light).powi(2)).max(0.0).sqrt();
-    let wrapped = (normal.dot(to_light) + wrap).max(0.0) / (1.0f64 + wrap).powi(2);
-    let diffuse = color * (1.0 - reflected - returned) / PI * wrapped * (0.7 + 0.35 * across);
-    let white = reflected * lobe(tangent, to_eye, to_light, -tilt, variance);
-    let colored = returned * color * lobe(tangent, to_eye, to_light, 1.5 * tilt, 4.0 * variance);
-    diffuse + (4.0 * wrapped).clamp(0.0, 1.0) * (white + colored)
+/// Optical depth of the coat above a height along the light.
+pub fn optical_depth(height: f64, occlusion: f64, cosine_to_light: f64) -> f64 {
+    let chord = 0.5 * (cosine_to_light + cosine_to_light.hypot(0.3));
+    -(1.0 - occlusion).max(1e-3).ln() * (1.0 - height) / chord
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Directions spread evenly over the sphere (Fibonacci lattice), each standing for 4 pi / count.
-    fn sphere(count: usize) -> impl Iterator<Item = DVec3> {
-        (0..count).map(move |index| {
-            let z = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
-            let (sine, cosine) = (index as f64 * PI * (3.0 - 5f64.sqrt())).sin_cos();
-            let radius = (1.0 - z * z).sqrt();
-            DVec3::new(radius * cosine, radius * sine, z)
-        })
-    }
-
-    #[test]
-    fn a_strand_never_reflects_more_than_it_gets() {
-        let count = 20_000;
-        for eye in [DVec3::Z, DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.995, 0.0998).normalize()] {
-            for tangent in [DVec3::Z, DVec3::X, DVec3::new(0.3, 0.4, 0.866).normalize()] {
-                for (specular, roughness) in [(0.0, 0.3), (1.0, 0.1), (1.0, 0.35), (1.0, 1.0)] {
-                    let sum: f64 = sphere(count)
-                        .map(|light| scattering(1.0, DVec3::Z, tangent, eye, light, specular, variance(roughness)))
-                        .sum();
-                    let albedo = sum * 4.0 * PI / count as f64;
-                    assert!(albedo <= 1.0 + 1e-3, "albedo {albedo} at specular {specular}, roughness {roughness}");
-                    assert!(albedo > 0.25, "a white strand in white light looks dark: {albedo}");
-                }
-            }
-        }
-    }
 
     #[test]
     fn the_arc_keeps_its_length_and_rises_steadily() {
@@ -447,10 +381,12 @@ mod tests {
     }
 
     #[test]
-    fn light_falls_with_depth_and_slant() {
-        assert_eq!(light_through_coat(1.0, 0.9, 0.2), 1.0);
-        assert!((light_through_coat(0.0, 0.7, 1.0) - 0.3).abs() < 1e-12);
-        assert!(light_through_coat(0.0, 1.0, 1e-9) > 0.0 - 1e-300);
-        assert!(light_through_coat(0.5, 0.7, 0.5) < light_through_coat(0.5, 0.7, 1.0));
+    fn depth_falls_with_height_and_grows_with_slant() {
+        assert_eq!(optical_depth(1.0, 0.9, 0.2), 0.0);
+        assert_eq!(optical_depth(0.0, 0.0, -1.0), 0.0);
+        let at = |cosine| optical_depth(0.0, 0.7, cosine);
+        // The wider view past the horizon takes a fiftieth off.
+        assert!((at(1.0) / -(0.3f64.ln()) - 1.0).abs() < 0.025);
+        assert!((1..200).all(|step| at(f64::from(step) * 0.01 - 1.0) < at(f64::from(step) * 0.01 - 1.01)));
     }
 }

@@ -12,6 +12,7 @@ pub fn shader(layered: &Layered) -> ClothShader {
         ("IRIDESCENCE", layered.has_iridescence()),
         ("DIFFUSE_TRANSMISSION", layered.has_diffuse_transmission()),
         ("TRANSMISSION", layered.has_transmission()),
+        ("VOLUME", layered.has_volume()),
         ("CLEARCOAT", layered.has_clearcoat()),
     ];
     ClothShader {
@@ -50,6 +51,7 @@ fn maps(layered: &Layered) -> Vec<Map> {
         .when(has_scattering),
         Map::data("transmission", "HAS_TRANSMISSION_MAP", layered.transmission_texture)
             .when(layered.has_transmission()),
+        Map::data("thickness", "HAS_THICKNESS_MAP", layered.thickness_texture).when(layered.has_volume()),
         Map::color("sheen_color", "HAS_SHEEN_COLOR_MAP", layered.sheen_color_texture).when(has_fuzz),
         Map::data("sheen_roughness", "HAS_SHEEN_ROUGHNESS_MAP", layered.sheen_roughness_texture).when(has_fuzz),
         Map::data("clearcoat", "HAS_CLEARCOAT_MAP", layered.clearcoat_texture).when(has_coat),
@@ -81,6 +83,8 @@ pub fn uniforms(layered: &Layered) -> LayeredUniforms {
         clearcoat_roughness: layered.clearcoat_roughness,
         clearcoat_normal_scale: layered.clearcoat_normal_scale,
         transmission: layered.transmission,
+        attenuation_color: layered.attenuation_color.to_array(),
+        thickness_over_distance: layered.thickness / layered.attenuation_distance,
         specular_transform: transform(layered.specular_texture),
         specular_color_transform: transform(layered.specular_color_texture),
         anisotropy_transform: transform(layered.anisotropy_texture),
@@ -89,6 +93,7 @@ pub fn uniforms(layered: &Layered) -> LayeredUniforms {
         diffuse_transmission_transform: transform(layered.diffuse_transmission_texture),
         diffuse_transmission_color_transform: transform(layered.diffuse_transmission_color_texture),
         transmission_transform: transform(layered.transmission_texture),
+        thickness_transform: transform(layered.thickness_texture),
         sheen_color_transform: transform(layered.sheen_color_texture),
         sheen_roughness_transform: transform(layered.sheen_roughness_texture),
         clearcoat_transform: transform(layered.clearcoat_texture),

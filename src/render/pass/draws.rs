@@ -21,7 +21,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame, view: usize)
     let plan = &frame.shot.plan;
     let mut bound = None;
     let mut vertex_inputs = Vec::new();
-    for draw in draws {
+    for (rank, draw) in draws.iter().enumerate() {
         let spec = &plan.pipelines[draw.pipeline];
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
             pass.pipeline(resources.pipeline(spec));
@@ -53,6 +53,8 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame, view: usize)
             first_light: lights.start,
             light_count: lights.end - lights.start,
             vertices_per_shell: primitive.vertices.positions.len() as u32,
+            rank: rank as u32,
+            metres_per_unit: scene.size(instance).world_from_rest,
             ..Default::default()
         };
         pass.push(&object);

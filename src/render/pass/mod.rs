@@ -6,6 +6,7 @@ pub mod order;
 pub mod shadow;
 pub mod sway;
 pub mod tonemap;
+pub mod transparency;
 
 use super::Shot;
 use super::frame_data::FrameData;
@@ -14,6 +15,7 @@ use super::options::FrameOptions;
 use super::resources::Resources;
 use super::shadow::ShadowAtlas;
 use crate::scene::Scene;
+use transparency::Composition;
 
 /// What the passes that move vertices share.
 pub struct Moving<'a> {
@@ -51,4 +53,6 @@ pub struct Frame<'a> {
     pub data: &'a FrameData,
     /// Shadow maps, where lights cast any.
     pub atlas: Option<&'a ShadowAtlas>,
+    /// Where what blends goes; `None` where nothing is listed, or fragments are only counted.
+    pub composition: Option<&'a Composition<'a>>,
 }

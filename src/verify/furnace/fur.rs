@@ -1,87 +1,95 @@
 //! Claims of the strands of fur.
 
 use super::claim::{Claim, Input};
-use super::quadrature::{direction, over_sphere};
+use super::quadrature::{direction, over_sphere, settled};
 use super::{ALBEDO_LIMIT, light};
 use crate::material::Fur;
+use crate::material::reference::fibre::{self, Fibre};
 use crate::material::reference::strand;
 use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
 
-/// A strand and the eye, from the first six inputs of most claims here.
-struct Strand {
-    color: f64,
-    specular: f64,
-    variance: f64,
-    tangent: DVec3,
-    to_eye: DVec3,
+/// A strand before the eye, from the first six inputs of most claims here.
+fn fibre(x: &[f64]) -> Fibre {
+    let (tangent, to_eye) = (direction(x[3].to_radians().cos(), 0.0), direction(x[4], x[5].to_radians()));
+    Fibre::new(DVec3::Z, tangent, to_eye, x[0], x[1], fibre::variance(x[2]))
 }
 
-impl Strand {
-    fn new(x: &[f64]) -> Self {
-        Self {
-            color: x[0],
-            specular: x[1],
-            variance: strand::variance(x[2]),
-            tangent: direction(x[3].to_radians().cos(), 0.0),
-            to_eye: direction(x[4], x[5].to_radians()),
-        }
-    }
-
-    fn scattering(&self, to_eye: DVec3, to_light: DVec3) -> f64 {
-        strand::scattering(self.color, DVec3::Z, self.tangent, to_eye, to_light, self.specular, self.variance)
-    }
-
-    /// Share of white light from everywhere that comes back, by that lobe.
-    fn albedo(&self, scattering: impl Fn(&Self, DVec3, DVec3) -> f64) -> f64 {
-        over_sphere(self.tangent, self.to_eye, |to_light| scattering(self, self.to_eye, to_light))
-    }
+/// Share of white light from everywhere that white strands send back, by that scattering.
+fn albedo(fibre: &Fibre, to_eye: DVec3, scattering: impl Fn(&Fibre, DVec3) -> f64) -> f64 {
+    over_sphere(fibre.tangent, to_eye, |to_light| scattering(fibre, to_light))
 }
 
 /// Everything that is promised of fur.
 pub fn claims() -> Vec<Claim> {
+    // Lobes add up: what holds with and without them holds between.
+    let strength = |name| Input { corners: vec![0.0, 1.0], ..Input::of::<Fur>(name) };
     let inputs = vec![
-        Input::of::<Fur>("base_color"),
-        Input::of::<Fur>("specular"),
+        strength("specular"),
+        strength("transmission"),
         Input::of::<Fur>("roughness"),
         Input::between("strand_to_normal_deg", (0.0, 90.0)),
         Input::signed_cosine("cosine_to_eye"),
         Input::turn("strand_to_eye_deg"),
     ];
-    let lit =
-        [inputs.clone(), vec![Input::signed_cosine("cosine_to_light"), Input::turn("strand_to_light_deg")]].concat();
+    let lit = [
+        inputs.clone(),
+        vec![
+            Input::signed_cosine("cosine_to_light"),
+            Input::turn("strand_to_light_deg"),
+            Input::of::<Fur>("base_color"),
+            Input::between("optical_depth", (0.0, 7.0)),
+        ],
+    ]
+    .concat();
     let claim =
         |property, limit, inputs, value| Claim { material: "fur", property, classic: false, limit, inputs, value };
     let mut claims = vec![
+        // No colour and no depth give more.
         claim(
-            "directional albedo",
+            "directional albedo of white strands",
             Some(ALBEDO_LIMIT),
-            inputs,
-            Box::new(|x| Strand::new(x).albedo(Strand::scattering)),
+            inputs.clone(),
+            Box::new(|x| {
+                albedo(&fibre(x), direction(x[4], x[5].to_radians()), |fibre, light| fibre.scattering(1.0, light, 0.0))
+            }),
         ),
         claim(
-            "integral of a lobe",
+            "departure from white in white surroundings",
+            Some(1e-6),
+            inputs,
+            Box::new(|x| (fibre(x).surroundings(1.0, 1.0, 1.0, 1.0, 0.0) - 1.0).abs()),
+        ),
+        claim(
+            "integral of a longitudinal lobe",
             Some(ALBEDO_LIMIT),
             vec![
                 Input::of::<Fur>("roughness"),
-                Input::signed_cosine("sine_to_eye"),
-                // From the white highlight's, towards the root, to the coloured one's, towards the tip.
-                Input::between("shift", (-0.08, 0.12)),
-                Input::between("widening", (1.0, 4.0)),
+                Input::between("angle", (-FRAC_PI_2, FRAC_PI_2)),
+                // From the transmitted lobe to the returned one.
+                Input::between("widening", (0.25, 4.0)),
             ],
             Box::new(|x| {
-                let (eye, variance) = (direction(x[1], 0.0), x[3] * strand::variance(x[0]));
-                over_sphere(DVec3::Z, eye, |light| strand::lobe(DVec3::Z, eye, light, x[2], variance))
+                let ((sine, cosine), variance) = (x[1].sin_cos(), x[2] * fibre::variance(x[0]));
+                settled(|rule| {
+                    let at = |u: f64| fibre::along(sine, cosine, variance, 2.0 * u - 1.0, 2.0 * (u * (1.0 - u)).sqrt());
+                    rule.iter().map(|&(u, weight)| 2.0 * weight * at(u)).sum()
+                })
             }),
         ),
-        // Wrapped light asks the light's side only: not reciprocal, by design.
+        // The body's horizon and the wrapped light ask the light's side only: not reciprocal, by design.
         claim(
             "scattering over itself swapped",
             None,
             lit.clone(),
             Box::new(|x| {
-                let (strand, to_light) = (Strand::new(x), direction(x[6].abs(), x[7].to_radians()));
-                let to_eye = DVec3::new(strand.to_eye.x, strand.to_eye.y, strand.to_eye.z.abs());
-                let (there, back) = (strand.scattering(to_eye, to_light), strand.scattering(to_light, to_eye));
+                let (to_eye, to_light) =
+                    (direction(x[4].abs(), x[5].to_radians()), direction(x[6].abs(), x[7].to_radians()));
+                let tangent = direction(x[3].to_radians().cos(), 0.0);
+                let [there, back] = [(to_eye, to_light), (to_light, to_eye)].map(|(to_eye, to_light)| {
+                    let fibre = Fibre::new(DVec3::Z, tangent, to_eye, x[0], x[1], fibre::variance(x[2]));
+                    fibre.scattering(x[8], to_light, x[9])
+                });
                 if back > 0.0 { there / back } else { 1.0 }
             }),
         ),
@@ -92,8 +100,9 @@ pub fn claims() -> Vec<Claim> {
                 Input::between("height", (0.0, 1.0)),
                 Input::of::<Fur>("occlusion"),
                 Input::signed_cosine("cosine_to_light"),
+                Input::of::<Fur>("base_color"),
             ],
-            Box::new(|x| strand::light_through_coat(x[0], x[1], x[2])),
+            Box::new(|x| fibre::passed_on(x[3], strand::optical_depth(x[0], x[1], x[2]))),
         ),
         claim(
             "opacity outside 0 to 1, by",
@@ -113,8 +122,7 @@ pub fn claims() -> Vec<Claim> {
         ),
     ];
     claims.extend(light::claims("fur", false, &lit, |x, irradiance| {
-        let (strand, to_light) = (Strand::new(x), direction(x[6], x[7].to_radians()));
-        irradiance * strand.scattering(strand.to_eye, to_light)
+        irradiance * fibre(x).scattering(x[8], direction(x[6], x[7].to_radians()), x[9])
     }));
     claims
 }
@@ -133,7 +141,10 @@ mod tests {
     fn a_doubled_lobe_fails() {
         let mut claim = claims().remove(0);
         assert!(claim.judge(0).pass);
-        claim.value = Box::new(|x| Strand::new(x).albedo(|strand, eye, light| 2.0 * strand.scattering(eye, light)));
+        claim.value = Box::new(|x| {
+            let to_eye = direction(x[4], x[5].to_radians());
+            albedo(&fibre(x), to_eye, |fibre, light| 2.0 * fibre.scattering(1.0, light, 0.0))
+        });
         assert!(claim.judge(0).fails());
     }
 

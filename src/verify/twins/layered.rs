@@ -117,6 +117,6 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("layered_sheen_albedo", &[UNIT], |given| vec![layered::sheen_albedo(given.number())]),
     Twin::new("layered_under", &[UNIT, UNIT, UNIT], |given| vec![layered::under(given.number(), given.vec2())]),
     Twin::new("layered_through", &[UNIT, UNIT, UNIT, UNIT], |given| {
-        vec![layered::through(given.number(), given.number(), given.vec3(), given.vec3())]
+        layered::through(given.number(), given.number(), given.vec3(), given.vec3()).to_array().to_vec()
     }),
 ];

@@ -7,6 +7,7 @@ mod cotton;
 mod coverage;
 mod direction;
 mod environment;
+mod fibre;
 mod film;
 mod fuzz;
 mod gauze;
@@ -25,6 +26,7 @@ mod standard;
 mod strand;
 mod sway;
 mod tonemap;
+mod transparency;
 mod uv;
 mod velvet;
 
@@ -38,6 +40,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    fibre::TWINS,
     environment::TWINS,
     film::TWINS,
     fuzz::TWINS,
@@ -57,6 +60,7 @@ const FILES: &[&[Twin]] = &[
     strand::TWINS,
     sway::TWINS,
     tonemap::TWINS,
+    transparency::TWINS,
     uv::TWINS,
     velvet::TWINS,
 ];
