@@ -10,7 +10,7 @@ use std::fmt::Write;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Sampler, Topology};
 use vair::gpu::CallCounts;
-use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shot, Target};
+use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shadows, Shot, Target};
 use vair::scene::{CameraChoice, Scene};
 use vair::shader::layout::{
     FrameUniforms, FurUniforms, LightSource, ObjectUniforms, ShadowSource, StandardUniforms, TransparencyEntries,
@@ -205,8 +205,10 @@ fn later_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, calls
 fn the_device_is_asked_for_what_the_plan_lists() {
     for (what, scene, frame) in scenes() {
         for everything in [false, true] {
-            let (what, frame) =
-                (format!("{what}, everything {everything}"), FrameOptions { everything, ..frame.clone() });
+            let (what, frame) = (
+                format!("{what}, everything {everything}"),
+                FrameOptions { everything, shadows: Shadows::default(), ..frame.clone() },
+            );
             headless(|device| {
                 let (_, first) = device.reported(&scene, &frame);
                 first_frame_is_planned(&what, &scene, &frame, &first);

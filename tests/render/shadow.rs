@@ -1,7 +1,7 @@
 //! Shadows lie where geometry says, are as dark as what casts them, and cost nothing where no light needs them.
 
 use crate::headless::{Headless, headless};
-use crate::stage::{NEAREST, Stage, at, camera_axes, options, plain, quad};
+use crate::stage::{NEAREST, Stage, at, camera_axes, options as unshadowed, plain, quad};
 use glam::{Mat3, Vec3, Vec4Swizzles};
 use vair::asset::procedural::sphere;
 use vair::asset::{AlphaMode, LightKind, Material, Transform};
@@ -13,6 +13,10 @@ use vair::scene::{Light, Scene};
 const SIZE: [u32; 2] = [128, 128];
 /// What the camera shows above and below the origin, metres.
 const HALF_M: f32 = 1.0;
+
+fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
+    FrameOptions { shadows: Shadows::default(), ..unshadowed(size, msaa) }
+}
 
 /// A white floor in the XY plane under one directional light, seen along `backwards`.
 fn floor(backwards: Vec3, to_light: Vec3) -> Stage {

@@ -2,14 +2,18 @@
 
 use crate::deform::bent_tube;
 use crate::headless::headless;
-use crate::stage::{Stage, at, options, plain, quad};
+use crate::stage::{Stage, at, options as unshadowed, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
 use vair::material::{Blend, Cloth, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
-use vair::render::{FrameOptions, Plan, Shot, Target, Transparency};
+use vair::render::{FrameOptions, Plan, Shadows, Shot, Target, Transparency};
 use vair::scene::{Light, Scene};
 use vair::shader::table;
+
+fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
+    FrameOptions { shadows: Shadows::default(), ..unshadowed(size, msaa) }
+}
 
 fn colored(has_color: bool) -> Primitive {
     let mut primitive = quad(0.5, 0.5);
