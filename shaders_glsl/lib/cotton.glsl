@@ -2,10 +2,12 @@
 // the eye's side alone. What is evaluated by default is fuzz.glsl. Functions only; directions as in sheen.glsl.
 //
 // Sources: Estevez & Kulla 2017, "Production Friendly Microfacet Sheen BRDF"; Neubelt & Pettineo 2013, "Crafting a Next-Gen
-// Material Pipeline for The Order: 1886"; KHR_materials_sheen (albedo scaling).
+// Material Pipeline for The Order: 1886"; KHR_materials_sheen (albedo scaling); Lagarde & de Rousiers 2014, "Moving Frostbite
+// to Physically Based Rendering" (specular occlusion).
 #ifndef VAIR_COTTON_GLSL
 #define VAIR_COTTON_GLSL
 #include "fuzz.glsl"
+#include "occlusion.glsl"
 
 // What the base keeps of the light: 1 - max(sheen_color) E(v), E cut at 1 in the table.
 float cotton_classic_scale(vec3 sheen_color, float sheen_albedo) {
@@ -23,15 +25,17 @@ vec3 cotton_classic_brdf_times_cosine(vec3 base_color, vec3 sheen_color, SheenLo
         + sheen_color * sheen_brdf_times_cosine(SHEEN_CLASSIC, fibre, v, l);
 }
 
-// Radiance under constant white radiance 1; roughness of pile and fibres, occlusion 1 = open.
-vec3 cotton_classic_ambient(
-    vec3 base_color, vec3 sheen_color, SheenLobe pile, SheenLobe fibre, float mu_v, vec2 roughness, float occlusion) {
-    float scale = cotton_classic_scale(sheen_color, fibre.albedo);
-    float pile_occlusion = fuzz_specular_occlusion(mu_v, roughness.x, occlusion);
-    float fibre_occlusion = fuzz_specular_occlusion(mu_v, roughness.y, occlusion);
-    return base_color * scale * occlusion
-        + 0.04 * pile.albedo * fuzz_bounced_occlusion(pile_occlusion, vec3(0.04))
-        + sheen_color * fibre.albedo * fuzz_bounced_occlusion(fibre_occlusion, sheen_color);
+// Share of the surroundings that a lobe sees through a crevice; roughness perceptual, ambient occlusion 1 = open.
+float cotton_classic_occlusion(float mu_v, float roughness, float occlusion) {
+    float sum = mu_v + occlusion;
+    float raised = sum <= 0.0 ? 0.0 : pow(sum, roughness * roughness);
+    return clamp(raised - 1.0 + occlusion, 0.0, 1.0);
+}
+
+// What a lobe of that colour and albedo reflects of the radiance that it sees.
+vec3 cotton_classic_lobe_ambient(vec3 color, float albedo, float mu_v, float roughness, float occlusion, vec3 light) {
+    float seen = cotton_classic_occlusion(mu_v, roughness, occlusion);
+    return color * albedo * occlusion_bounced(seen, color) * light;
 }
 
 #endif

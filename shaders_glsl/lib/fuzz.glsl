@@ -1,9 +1,7 @@
 // Cloth with fuzz: a Lambert base under two lobes of sheen, one of the pile that lies on it, one of the fibres that stand
 // up. Never more light leaves than came in, and a white base returns all of it. Functions only; directions as in sheen.glsl.
 //
-// Sources: Kelemen & Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model" (the coupling of the base);
-// Lagarde & de Rousiers 2014, "Moving Frostbite to Physically Based Rendering" (specular occlusion); Jimenez et al. 2016,
-// "Practical Real-Time Strategies for Accurate Indirect Occlusion" (light that bounces within a crevice).
+// Source: Kelemen & Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model" (the coupling of the base).
 #ifndef VAIR_FUZZ_GLSL
 #define VAIR_FUZZ_GLSL
 #include "sheen.glsl"
@@ -43,36 +41,11 @@ vec3 fuzz_brdf_times_cosine(uint sheen, bool has_fibre, FuzzSurface s, vec3 v, v
     return sum + s.coupled_diffuse * left * l.z;
 }
 
-// Share of the surroundings that a lobe sees through a crevice; roughness perceptual, ambient occlusion 1 = open.
-float fuzz_specular_occlusion(float mu_v, float roughness, float occlusion) {
-    float sum = mu_v + occlusion;
-    float raised = sum <= 0.0 ? 0.0 : pow(sum, roughness * roughness);
-    return clamp(raised - 1.0 + occlusion, 0.0, 1.0);
-}
-
-// Occlusion of a crevice whose walls reflect that colour.
-vec3 fuzz_bounced_occlusion(float occlusion, vec3 color) {
-    vec3 a = 2.0404 * color - 0.3324;
-    vec3 b = -4.7951 * color + 0.6417;
-    vec3 c = 2.7552 * color + 0.6903;
-    float x = occlusion;
-    return clamp(max(vec3(x), ((x * a + b) * x + c) * x), 0.0, 1.0);
-}
-
-// Radiance under constant white radiance 1; roughness of pile and fibres, perceptual; occlusion 1 = open.
-vec3 fuzz_ambient(FuzzSurface s, float mu_v, vec2 roughness, float occlusion) {
+// Radiance to v: what pile, fibres and base see, mean radiances.
+vec3 fuzz_ambient(FuzzSurface s, vec3 pile_light, vec3 fibre_light, vec3 base_light) {
     vec3 pile = s.pile_color * s.pile.albedo;
     vec3 fibre = s.fibre_color * s.fibre.albedo;
-    vec3 base = s.diffuse * (1.0 - pile - fibre);
-    // Without a map this is known when the pipeline is made, and all that follows is gone.
-    if (occlusion >= 1.0) {
-        return pile + fibre + base;
-    }
-    float pile_occlusion = fuzz_specular_occlusion(mu_v, roughness.x, occlusion);
-    float fibre_occlusion = fuzz_specular_occlusion(mu_v, roughness.y, occlusion);
-    return pile * fuzz_bounced_occlusion(pile_occlusion, s.pile_color)
-        + fibre * fuzz_bounced_occlusion(fibre_occlusion, s.fibre_color)
-        + base * fuzz_bounced_occlusion(occlusion, s.diffuse);
+    return pile * pile_light + fibre * fibre_light + s.diffuse * (1.0 - pile - fibre) * base_light;
 }
 
 #endif

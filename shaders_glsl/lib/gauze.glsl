@@ -89,10 +89,11 @@ vec3 gauze_diffuse_times_cosine(GauzeSurface s, float depth_l, float mu_l, vec3 
     return s.coupled * (1.0 - lobe_albedo_l) * (gauze_opacity(depth_l) * side * abs(mu_l));
 }
 
-// Radiance under constant white radiance 1 from both sides.
-vec3 gauze_ambient(GauzeSurface s, vec3 lobe_albedo) {
-    float mirrored = gauze_met_by_both(s.opacity, s.opacity);
-    return lobe_albedo * mirrored + s.diffuse * (1.0 - lobe_albedo) * s.opacity;
+// Radiance, premultiplied: mirrored = mean radiance that the highlight sees, before and behind = that of either side, of
+// which the share `through` comes from behind.
+vec3 gauze_ambient(GauzeSurface s, vec3 lobe_albedo, vec3 mirrored, vec3 before, vec3 behind, float through) {
+    vec3 scattered = s.diffuse * (1.0 - lobe_albedo) * s.opacity;
+    return lobe_albedo * gauze_met_by_both(s.opacity, s.opacity) * mirrored + scattered * mix(before, behind, through);
 }
 
 #endif

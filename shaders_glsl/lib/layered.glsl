@@ -43,9 +43,10 @@ vec3 layered_average_left(vec3 f0, float f90, vec3 terms) {
 struct LayeredBase {
     AnisotropicLobe lobe;
     vec3 albedo;               // E(v) of the lobe
-    vec3 diffuse;              // albedo of what is scattered to both sides, before the coupling, linear
-    vec3 coupled_reflection;   // of it to this side, times (1 - E(v)) / (pi (1 - E_average))
-    vec3 coupled_transmission; // and to the other side
+    vec3 reflected;            // albedo of what is scattered to this side, before the coupling, linear
+    vec3 transmitted;          // and to the other side
+    vec3 coupled_reflection;   // `reflected` times (1 - E(v)) / (pi (1 - E_average))
+    vec3 coupled_transmission; // `transmitted` times the same
 };
 
 // `terms` are the lobe's towards v, `average_terms` its averages (see albedo.glsl or anisotropy.glsl); `reflected` and
@@ -59,7 +60,8 @@ LayeredBase layered_base(vec3 f0, float f90, vec2 widths, vec2 terms, vec3 avera
     s.lobe.alpha_y = widths.y;
     vec3 left = layered_left(f0, f90, terms);
     s.albedo = 1.0 - left;
-    s.diffuse = reflected + transmitted;
+    s.reflected = reflected;
+    s.transmitted = transmitted;
     vec3 coupling = 0.318309886 * left / max(layered_average_left(f0, f90, average_terms), 1e-4);
     s.coupled_reflection = reflected * coupling;
     s.coupled_transmission = transmitted * coupling;
@@ -77,9 +79,9 @@ vec3 layered_base_times_cosine(LayeredBase s, vec3 v, vec3 l, vec2 terms) {
     return anisotropic_lobe_times_cosine(s.lobe, v, l) + scattered;
 }
 
-// Radiance that the base sends to v under constant white radiance 1 from both sides.
-vec3 layered_base_ambient(LayeredBase s) {
-    return s.albedo + s.diffuse * (1.0 - s.albedo);
+// Radiance that the base sends to v: mirrored = mean radiance that the lobe sees, before and behind = that of either side.
+vec3 layered_base_ambient(LayeredBase s, vec3 mirrored, vec3 before, vec3 behind) {
+    return s.albedo * mirrored + (s.reflected * before + s.transmitted * behind) * (1.0 - s.albedo);
 }
 
 // Albedo of a whole coat of varnish (index 1.5) at a cosine.

@@ -53,9 +53,9 @@ vec3 standard_brdf_times_cosine(StandardSurface s, vec3 v, vec3 l) {
     return specular + s.coupled_diffuse * left * l.z;
 }
 
-// Radiance that the surface sends to v under constant white radiance 1: specular and diffuse albedo.
-vec3 standard_ambient(StandardSurface s) {
-    return s.specular_albedo + s.diffuse * (1.0 - s.specular_albedo);
+// Radiance that the surface sends to v: mirrored and scattered = mean radiance that the highlight and the diffuse lobe see.
+vec3 standard_ambient(StandardSurface s, vec3 mirrored, vec3 scattered) {
+    return s.specular_albedo * mirrored + s.diffuse * (1.0 - s.specular_albedo) * scattered;
 }
 
 #endif

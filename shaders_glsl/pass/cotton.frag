@@ -29,9 +29,13 @@ vec3 classic_radiance(SurfaceFragment f, vec3 sheen_color, float sheen_roughness
     vec3 v = f.eye_in_tangent;
     SheenLobe pile = sheen_table_lobe(SHEEN_CLASSIC, v, f.roughness);
     SheenLobe fibre = sheen_table_lobe(SHEEN_CLASSIC, v, sheen_roughness);
-    vec2 roughness = vec2(f.roughness, sheen_roughness);
-    vec3 sum = environment_irradiance(f.world_from_tangent[2])
-        * cotton_classic_ambient(f.base_color, sheen_color, pile, fibre, v.z, roughness, f.occlusion);
+    vec3 mirror = f.world_from_tangent * vec3(-v.xy, v.z);
+    vec3 pile_light = environment_radiance(mirror, f.roughness);
+    vec3 fibre_light = environment_radiance(mirror, sheen_roughness);
+    vec3 base = f.base_color * cotton_classic_scale(sheen_color, fibre.albedo);
+    vec3 sum = base * f.occlusion * environment_irradiance(f.world_from_tangent[2]);
+    sum += cotton_classic_lobe_ambient(vec3(0.04), pile.albedo, v.z, f.roughness, f.occlusion, pile_light);
+    sum += cotton_classic_lobe_ambient(sheen_color, fibre.albedo, v.z, sheen_roughness, f.occlusion, fibre_light);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
@@ -44,6 +48,7 @@ void main() {
     vec4 color = surface_color();
     int mask = surface_mask(color.a);
     SurfaceFragment f = surface_fragment(color);
+    own_environment_turn = cotton.environment_turn;
     vec3 sheen_color = cotton.sheen_color;
     float sheen_roughness = cotton.sheen_roughness;
 #ifdef MAPS

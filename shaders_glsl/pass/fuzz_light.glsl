@@ -3,6 +3,7 @@
 #define VAIR_FUZZ_LIGHT_GLSL
 #include "fuzz.glsl"
 #include "sheen_table.glsl"
+#include "surroundings.glsl"
 
 // Colours linear in [0, 1]; the pile is as rough as the surface. has_fibre is false where fibre_color is black everywhere.
 vec3 fuzz_radiance(
@@ -14,8 +15,12 @@ vec3 fuzz_radiance(
         fibre = sheen_table_lobe(sheen, v, fibre_roughness);
     }
     FuzzSurface surface = fuzz_surface(diffuse, pile_color, has_fibre ? fibre_color : vec3(0.0), pile, fibre);
-    vec2 roughness = vec2(f.roughness, fibre_roughness);
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * fuzz_ambient(surface, v.z, roughness, f.occlusion);
+    vec3 pile_light = fuzz_light(f, f.world_from_tangent, v, sheen, f.roughness, surface.pile_color);
+    vec3 fibre_light = pile_light;
+    if (has_fibre) {
+        fibre_light = fuzz_light(f, f.world_from_tangent, v, sheen, fibre_roughness, surface.fibre_color);
+    }
+    vec3 sum = fuzz_ambient(surface, pile_light, fibre_light, diffuse_light(f, diffuse));
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;

@@ -5,6 +5,15 @@
 #include "surface.glsl"
 #include "gauze_threads.glsl"
 #include "anisotropy.glsl"
+#include "surroundings.glsl"
+
+// The frame of those threads.
+mat3 turned_frame(mat3 world_from_tangent) {
+    vec2 turn = gauze.thread_turn;
+    vec3 along = turn.x * world_from_tangent[0] + turn.y * world_from_tangent[1];
+    vec3 across = turn.x * world_from_tangent[1] - turn.y * world_from_tangent[0];
+    return mat3(along, across, world_from_tangent[2]);
+}
 
 // Premultiplied by the opacity along the view, before the mesh and the transmittance.
 vec3 reflected(SurfaceFragment f, Threads t, float depth) {
@@ -14,6 +23,7 @@ vec3 reflected(SurfaceFragment f, Threads t, float depth) {
     AnisotropicLobe weft;
     vec3 albedo = vec3(0.0);
     vec3 average = vec3(0.0);
+    vec3 mirrored_by_threads = vec3(0.0);
     if (HIGHLIGHT) {
         vec2 alpha = ggx_anisotropic_alpha(f.roughness, gauze.anisotropy);
         vec3 reflectance = gauze.specular * t.noise;
@@ -22,13 +32,18 @@ vec3 reflected(SurfaceFragment f, Threads t, float depth) {
         warp = anisotropic_lobe(v, alpha, f0, f90);
         albedo = anisotropic_lobe_albedo(warp, v);
         average = anisotropic_lobe_average_albedo(warp);
+        mirrored_by_threads = mirrored_light_along(f, f.world_from_tangent, v, alpha, f0);
         if (HAS_THREAD_PATTERN_MAP) {
             weft = anisotropic_lobe(turned(v), alpha, f0, f90);
             albedo = mix(albedo, anisotropic_lobe_albedo(weft, turned(v)), t.turned);
+            vec3 by_weft = mirrored_light_along(f, turned_frame(f.world_from_tangent), turned(v), alpha, f0);
+            mirrored_by_threads = mix(mirrored_by_threads, by_weft, t.turned);
         }
     }
     GauzeSurface surface = gauze_surface(diffuse, depth, gauze.mean_opacity, albedo, average);
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * gauze_ambient(surface, albedo);
+    // Of even light from behind comes through what light of 60 degrees does, which is the middle of its irradiance.
+    float through = gauze_through(depth, depth_along(vec3(0.612372436, 0.612372436, 0.5)));
+    vec3 sum = gauze_ambient(surface, albedo, mirrored_by_threads, diffuse_light(f, diffuse), diffuse_light_behind(f, diffuse), through);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
@@ -63,7 +78,7 @@ vec3 classic_reflected(SurfaceFragment f, Threads t, float opacity) {
     vec3 v = other ? turned(f.eye_in_tangent) : f.eye_in_tangent;
     vec2 alpha = satin_classic_alpha(f.roughness, gauze.anisotropy);
     vec3 diffuse = f.base_color * (1.0 - f.metallic);
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * diffuse;
+    vec3 sum = diffuse_light(f, diffuse) * diffuse;
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;

@@ -6,6 +6,7 @@
 #include "layered_material.glsl"
 #include "layered.glsl"
 #include "film.glsl"
+#include "surroundings.glsl"
 #include "transparency.glsl"
 #ifdef SHEEN
 #include "sheen_table.glsl"
@@ -246,7 +247,10 @@ void main() {
     vec3 averages = ANISOTROPY ? anisotropic_average_terms(m.widths) : ggx_average_terms(f.roughness);
     vec2 terms = base_terms(eye, f.roughness, m.widths);
     LayeredBase base = layered_base(m.f0, m.f90, m.widths, terms, averages, m.reflected, m.transmitted);
-    vec3 ambient = layered_base_ambient(base);
+    vec3 mirrored = ANISOTROPY ? mirrored_light_along(f, world_from_base, eye, m.widths, m.f0)
+                               : mirrored_light(f, world_from_base, eye, f.roughness, m.f0);
+    vec3 behind = DIFFUSE_TRANSMISSION ? diffuse_light_behind(f, m.transmitted) : vec3(0.0);
+    vec3 sum = layered_base_ambient(base, mirrored, diffuse_light(f, m.reflected), behind);
     vec3 through = TRANSMISSION ? layered_through(m.transmission, f.metallic, f.base_color, base.albedo) : vec3(0.0);
     if (VOLUME) { through *= absorbed(); }
 
@@ -255,7 +259,8 @@ void main() {
     float sheen_strength = largest(m.sheen_color);
     float sheen_albedo = layered_sheen_albedo(sheen.albedo);
     float left_by_sheen = layered_under(sheen_strength, sheen_albedo, 0.0);
-    ambient = ambient * left_by_sheen + m.sheen_color * sheen.albedo;
+    vec3 sheen_light = fuzz_light(f, world_from_base, eye, SHEEN_CHARLIE, m.sheen_roughness, m.sheen_color);
+    sum = sum * left_by_sheen + m.sheen_color * sheen.albedo * sheen_light;
     through *= left_by_sheen;
 #endif
     mat3 world_from_coat;
@@ -269,12 +274,12 @@ void main() {
         coat_albedo = layered_coat_albedo(eye_in_coat.z, m.clearcoat_roughness);
         coat_strength = m.clearcoat * layered_coat_compensation(eye_in_coat.z, m.clearcoat_roughness);
         float left = layered_under(m.clearcoat, coat_albedo, 0.0);
-        ambient = ambient * left + m.clearcoat * coat_albedo;
+        vec3 coat_light = mirrored_light(f, world_from_coat, eye_in_coat, m.clearcoat_roughness, vec3(0.04));
+        sum = sum * left + m.clearcoat * coat_albedo * coat_light;
         f.emissive *= left;
         through *= left;
     }
 
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * ambient;
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * world_from_base;

@@ -3,6 +3,7 @@
 #define VAIR_LIGHTING_GLSL
 #include "frame.glsl"
 #include "object.glsl"
+#include "environment.glsl"
 #include "light.glsl"
 
 layout(constant_id = 90) const bool HAS_SHADOWS = false;
@@ -39,10 +40,12 @@ float screen_occlusion() {
     return 1.0;
 }
 
+// By which a material turns the environment that it sees, beside the frame's turn: cosine and sine.
+vec2 own_environment_turn = vec2(1.0, 0.0);
+
 // From the world's axes to the environment's.
 vec3 environment_direction(vec3 w) {
-    vec2 turn = frame.environment_turn;
-    return vec3(turn.x * w.x - turn.y * w.z, w.y, turn.y * w.x + turn.x * w.z);
+    return environment_from_world(environment_from_world(w, own_environment_turn), frame.environment_turn);
 }
 
 // Mean radiance around a direction, weighted by the cosine: what a white Lambert surface that faces it shows. Source:
@@ -77,9 +80,16 @@ vec3 environment_irradiance(vec3 direction_in_world) {
 
 // Radiance around a direction, spread as a GGX lobe of that perceptual roughness spreads it that is seen from the front.
 vec3 environment_radiance(vec3 direction_in_world, float roughness) {
-    float level = roughness * frame.environment_levels;
+    float level = environment_level(roughness, frame.environment_levels);
     vec3 w = environment_direction(direction_in_world);
     return frame.environment_scale * textureLod(samplerCube(environment_map, environment_sampler), w, level).rgb;
+}
+
+// How a lobe looks into that radiance: (mirror, roughness, albedo, Fresnel's share), see environment_lobe_axis. sheet
+// ENVIRONMENT_GGX, or 1 + SHEEN_*.
+vec4 lobe_entry(uint sheet, float mu, float roughness) {
+    float nodes = float(textureSize(sampler2D(lobe_table, lobe_table_sampler), 0).x);
+    return textureLod(sampler2D(lobe_table, lobe_table_sampler), environment_table_uv(sheet, mu, roughness, nodes), 0.0);
 }
 
 #endif

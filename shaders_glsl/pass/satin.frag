@@ -6,6 +6,7 @@
 #include "satin_material.glsl"
 #include "anisotropy.glsl"
 #include "satin.glsl"
+#include "surroundings.glsl"
 
 layout(constant_id = 20) const bool HAS_SPECULAR_NOISE_MAP = false;
 layout(constant_id = 21) const bool NARROW = false;    // the narrow lobe is not black
@@ -49,6 +50,18 @@ vec3 weave_albedo(Weave w, vec3 direction) {
     return w.share * value;
 }
 
+// What its lobes send to the eye of their surroundings.
+vec3 weave_surroundings(SurfaceFragment f, Weave w) {
+    vec3 v = f.eye_in_tangent;
+    vec2 alpha = vec2(w.warp.alpha_x, w.warp.alpha_y);
+    vec3 value = anisotropic_lobe_albedo(w.warp, v) * mirrored_light_along(f, f.world_from_tangent, v, alpha, w.warp.f0);
+    if (TWO_WAY) {
+        vec3 light = mirrored_light_along(f, f.world_from_tangent, v, alpha.yx, w.weft.f0);
+        value = 0.5 * (value + anisotropic_lobe_albedo(w.weft, v) * light);
+    }
+    return w.share * value;
+}
+
 vec3 reflected(SurfaceFragment f, float noise) {
     vec3 v = f.eye_in_tangent;
     float strength = satin.specular_strength * noise;
@@ -58,21 +71,24 @@ vec3 reflected(SurfaceFragment f, float noise) {
     Weave wide;
     vec3 albedo = vec3(0.0);
     vec3 average = vec3(0.0);
+    vec3 sum = vec3(0.0);
     if (NARROW) {
         narrow = weave(v, f.roughness, narrow_reflectance, wide_reflectance, f.base_color, f.metallic);
         albedo += weave_albedo(narrow, v);
         // That of the weft is the same.
         average += narrow.share * anisotropic_lobe_average_albedo(narrow.warp);
+        sum += weave_surroundings(f, narrow);
     }
     if (SECONDARY) {
         float roughness = f.roughness * satin.secondary_width;
         wide = weave(v, roughness, wide_reflectance, narrow_reflectance, f.base_color, f.metallic);
         albedo += weave_albedo(wide, v);
         average += wide.share * anisotropic_lobe_average_albedo(wide.warp);
+        sum += weave_surroundings(f, wide);
     }
     vec3 diffuse = f.base_color * (1.0 - f.metallic);
     vec3 coupled = diffuse * 0.318309886 * (1.0 - albedo) / max(1.0 - average, 1e-4);
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * (albedo + diffuse * (1.0 - albedo));
+    sum += diffuse * (1.0 - albedo) * diffuse_light(f, diffuse);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;
@@ -96,10 +112,13 @@ vec3 classic_times_cosine(vec3 f0, float roughness, float anisotropy, vec3 v, ve
     return satin_classic_times_cosine(f0, satin_classic_alpha(roughness, anisotropy), v, l);
 }
 
-vec3 classic_albedo(vec3 f0, float roughness, float anisotropy, vec3 v) {
+vec3 classic_surroundings(SurfaceFragment f, vec3 f0, float roughness, float anisotropy, vec3 tint) {
+    vec3 v = f.eye_in_tangent;
     vec2 alpha = satin_classic_alpha(roughness, anisotropy);
     vec2 terms = anisotropic_albedo_terms(v, min(alpha, 1.0));
-    return (f0 + (1.0 - f0) * terms.y) * (terms.x * alpha.x * alpha.y);
+    vec3 albedo = (f0 + (1.0 - f0) * terms.y) * (terms.x * alpha.x * alpha.y);
+    vec3 light = mirrored_light_along(f, f.world_from_tangent, v, min(alpha, 1.0), f0);
+    return satin_classic_light(tint, light, satin.light_tint) * albedo;
 }
 
 vec3 classic_reflected(SurfaceFragment f, float noise) {
@@ -109,17 +128,14 @@ vec3 classic_reflected(SurfaceFragment f, float noise) {
     float strength = satin.specular_strength * noise;
     float wide_roughness = min(f.roughness * satin.secondary_width, 1.0);
     float a = satin.anisotropy;
-    vec3 ambient = environment_irradiance(f.world_from_tangent[2]) * f.occlusion;
-    vec3 sum = ambient * diffuse;
+    vec3 sum = diffuse_light(f, diffuse) * diffuse;
     if (NARROW) {
-        vec3 albedo = classic_albedo(f0, f.roughness, a, v);
-        if (TWO_WAY) { albedo += classic_albedo(f0, f.roughness, -a, v); }
-        sum += satin_classic_light(satin.specular_color, ambient, satin.light_tint) * (strength * albedo);
+        sum += strength * classic_surroundings(f, f0, f.roughness, a, satin.specular_color);
+        if (TWO_WAY) { sum += strength * classic_surroundings(f, f0, f.roughness, -a, satin.specular_color); }
     }
     if (SECONDARY) {
-        vec3 albedo = classic_albedo(f0, wide_roughness, a, v);
-        if (TWO_WAY) { albedo += classic_albedo(f0, wide_roughness, -a, v); }
-        sum += satin_classic_light(satin.secondary_color, ambient, satin.light_tint) * (strength * albedo);
+        sum += strength * classic_surroundings(f, f0, wide_roughness, a, satin.secondary_color);
+        if (TWO_WAY) { sum += strength * classic_surroundings(f, f0, wide_roughness, -a, satin.secondary_color); }
     }
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);

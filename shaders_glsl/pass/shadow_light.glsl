@@ -4,8 +4,8 @@
 #include "shadow.glsl"
 #include "shadow_source.glsl"
 
-layout(constant_id = 92) const uint SHADOW_FILTER_PX = 2;            // radius of the filter, texels
-layout(constant_id = 93) const bool HAS_TRANSLUCENT_SHADOWS = false; // something lets light through in part
+layout(constant_id = 96) const uint SHADOW_FILTER_PX = 2;            // radius of the filter, texels
+layout(constant_id = 97) const bool HAS_TRANSLUCENT_SHADOWS = false; // something lets light through in part
 
 layout(set = 0, binding = 6, std430) readonly buffer ShadowList { ShadowSource shadows[]; };
 layout(set = 0, binding = 7) uniform texture2D shadow_map;          // nearest opaque surface

@@ -16,7 +16,7 @@ layout(set = 1, binding = 20, std140) uniform VelvetBlock { VelvetUniforms velve
 // Older engines: no indirect highlight, and a rim that asks no light for leave.
 vec3 classic_radiance(SurfaceFragment f, vec3 diffuse, vec3 f0) {
     vec3 v = f.eye_in_tangent;
-    vec3 sum = environment_irradiance(f.world_from_tangent[2]) * f.occlusion * diffuse;
+    vec3 sum = diffuse_light(f, diffuse) * diffuse;
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 l = light.direction_in_world * f.world_from_tangent;

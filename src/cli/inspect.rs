@@ -111,7 +111,7 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
 
 /// The tone mapping is no part of the plan, since it depends on the target; `vair render` draws into this one.
 fn tonemap(options: &FrameOptions) -> PipelineSpec {
-    PipelineSpec::tonemap(options.tonemap, options.hdr_format, PICTURE_FORMAT)
+    PipelineSpec::tonemap(options.tonemap, options.hdr_format, PICTURE_FORMAT, options.shows_environment())
 }
 
 fn draws(plan: &Plan, pass: Pass) -> usize {

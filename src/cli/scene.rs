@@ -7,10 +7,11 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use vair::asset::procedural::GALLERY_CAMERA;
-use vair::asset::{Asset, LoadOptions};
+use vair::asset::{Asset, Environment, LoadOptions};
 use vair::material::Look;
-use vair::render::{Background, FrameOptions, HdrFormat, Shadows, Shells, Tonemap, Transparency};
+use vair::render::{Background, EnvironmentQuality, FrameOptions, HdrFormat, Shadows, Shells, Tonemap, Transparency};
 use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
 /// What to show.
@@ -84,6 +85,15 @@ pub struct SceneArguments {
     /// Whether lights cast shadows.
     #[arg(long, value_enum, default_value_t = Switch::On)]
     shadows: Switch,
+    /// Light from all around: an equirectangular .hdr or .exr picture; without one, the embedded studio.
+    #[arg(long, value_name = "FILE.hdr/.exr")]
+    env: Option<PathBuf>,
+    /// Turns the environment around +Y, degrees, counter-clockwise seen from above.
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
+    env_rotation: f32,
+    /// Factor on the environment's radiance, at least 0.
+    #[arg(long, value_name = "X", default_value = "1", value_parser = values::not_negative)]
+    env_strength: f32,
     /// What stands behind: env, transparent, or a colour in sRGB.
     #[arg(long, value_name = "env/transparent/R,G,B", default_value = "env", value_parser = values::background)]
     background: Background,
@@ -133,7 +143,7 @@ impl SceneArguments {
             let text = "--hdr-format b10g11r11 has no alpha; use rgba16f with --background transparent";
             return Err(UsageError(text).into());
         }
-        let limits = LoadOptions { allow_outside: self.allow_outside, memory_limit_bytes: self.memory_limit };
+        let limits = self.limits();
         let mut scene = match &self.scene_file {
             Some(path) => Scene::load(path, &limits)?,
             None => embedded(),
@@ -180,7 +190,8 @@ impl SceneArguments {
                 TonemapChoice::None => Tonemap::None,
             },
             exposure_ev: self.exposure,
-            surroundings: Surroundings::default(),
+            surroundings: self.surroundings()?,
+            environment_quality: EnvironmentQuality::default(),
             lights: Vec::new(),
             shadows: Shadows { are_cast: self.shadows == Switch::On, ..Shadows::default() },
             background: self.background,
@@ -206,6 +217,23 @@ impl SceneArguments {
             },
             everything: false,
         })
+    }
+
+    /// What is all around; says what was odd about its file.
+    fn surroundings(&self) -> Result<Surroundings> {
+        let mut surroundings = Surroundings::studio();
+        if let Some(path) = &self.env {
+            let (environment, warnings) = Environment::load(path, &self.limits())?;
+            for warning in warnings {
+                output::complain(&format!("warning: {}: {warning}", path.display()));
+            }
+            surroundings = Surroundings::new(Arc::new(environment));
+        }
+        Ok(Surroundings { rotation_deg: self.env_rotation, strength: self.env_strength, ..surroundings })
+    }
+
+    fn limits(&self) -> LoadOptions {
+        LoadOptions { allow_outside: self.allow_outside, memory_limit_bytes: self.memory_limit }
     }
 
     /// Without a camera of the file.

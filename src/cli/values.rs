@@ -107,6 +107,11 @@ pub fn finite(text: &str) -> Result<f32, String> {
     text.parse::<f32>().ok().filter(|number| number.is_finite()).ok_or_else(|| "not a finite number".to_owned())
 }
 
+/// A factor, >= 0.
+pub fn not_negative(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|factor| if factor >= 0.0 { Ok(factor) } else { Err("must be at least 0".to_owned()) })
+}
+
 /// Frames a second, > 0.
 pub fn frame_rate(text: &str) -> Result<f32, String> {
     finite(text).and_then(|rate| if rate > 0.0 { Ok(rate) } else { Err("must be greater than 0".to_owned()) })

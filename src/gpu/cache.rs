@@ -20,6 +20,8 @@ const HEADER_BYTES: usize = 32;
 pub(crate) struct PipelineCache {
     pub(crate) raw: vk::PipelineCache,
     path: Option<PathBuf>,
+    /// The folder that the device's user gave.
+    pub(crate) dir: Option<PathBuf>,
 }
 
 impl PipelineCache {
@@ -33,7 +35,7 @@ impl PipelineCache {
             tracing::warn!("no pipeline cache ({result}); pipelines are compiled anew");
             vk::PipelineCache::null()
         });
-        Self { raw, path }
+        Self { raw, path, dir: dir.map(Path::to_owned) }
     }
 
     /// Writes the file, if there is one to write.

@@ -25,7 +25,7 @@ pub struct GpuOptions {
     pub device: Option<String>,
     /// Turns on the validation layer with synchronization validation.
     pub validate: bool,
-    /// Folder for the pipeline cache; `None` keeps it in memory.
+    /// Folder for the pipeline cache and for prepared environments; `None` keeps them in memory.
     pub pipeline_cache_dir: Option<PathBuf>,
 }
 
@@ -170,6 +170,11 @@ impl Gpu {
     /// The device, its abilities and limits.
     pub fn info(&self) -> &DeviceInfo {
         &self.0.0.info
+    }
+
+    /// Folder for what is kept between runs, [`GpuOptions::pipeline_cache_dir`].
+    pub fn cache_dir(&self) -> Option<&Path> {
+        self.context().cache.dir.as_deref()
     }
 
     /// All warnings and errors of the validation layer so far, each `error: <id>: <text>` or `warning: ...`. Empty

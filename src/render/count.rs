@@ -4,7 +4,7 @@
 //! of the frame is drawn by its counting pipeline ([`PipelineSpec::counting`]), which keeps what decides coverage and
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
-use super::frame_data::FrameData;
+use super::frame_data::{EnvironmentLight, FrameData};
 use super::options::Shadows;
 use super::pass::{Frame, draws};
 use super::plan::Pass;
@@ -77,7 +77,8 @@ impl Renderer {
             *spec = spec.counting();
         }
         let motion = self.prepare_motion(scene, &shot, options)?;
-        let data = FrameData::new(&self.gpu, &self.resources, None, None, scene, &shot)?;
+        let light = EnvironmentLight::default();
+        let data = FrameData::new(&self.gpu, &self.resources, light, None, scene, &shot)?;
         let resources = &self.resources;
         let frame = Frame {
             scene,

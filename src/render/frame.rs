@@ -80,7 +80,8 @@ fn clear_color(frame: &Frame) -> [f32; 4] {
     match frame.options.background {
         _ if frame.options.hdr_format.has_alpha() => [0.0; 4],
         Background::Environment => {
-            frame.shot.lighting.surroundings.constant_radiance().unwrap_or_default().extend(1.0).to_array()
+            let constant = frame.shot.lighting.surroundings.constant_radiance();
+            constant.unwrap_or(frame.data.mean_radiance).extend(1.0).to_array()
         }
         Background::Color(color) => color.extend(1.0).to_array(),
         Background::Transparent => [0.0; 4],

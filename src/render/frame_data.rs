@@ -1,7 +1,7 @@
 //! What changes every frame: camera, lights, places, coats; and the bind groups over it.
 
 use super::Shot;
-use super::environment::{EnvironmentMaps, HARMONICS};
+use super::environment::{EnvironmentMaps, HARMONICS, LobeTable};
 use super::map::fur_maps;
 use super::material::fur_uniforms;
 use super::pipeline::{PipelineSpec, Target};
@@ -24,8 +24,19 @@ pub const FRAME_SET: u32 = 0;
 /// Descriptor set of where objects stand.
 pub const OBJECT_SET: u32 = 2;
 
+/// What the environment is on the device, as far as the frame asks for it.
+#[derive(Clone, Copy, Default)]
+pub struct EnvironmentLight<'a> {
+    /// Cube and harmonics.
+    pub maps: Option<&'a EnvironmentMaps>,
+    /// How lobes look into the cube.
+    pub lobes: Option<&'a LobeTable>,
+}
+
 /// What one frame reads and no other.
 pub struct FrameData {
+    /// Linear RGB mean of the environment's radiance; 0 where nothing is lit.
+    pub mean_radiance: Vec3,
     /// What a view shares: the camera's, then each shadow map's.
     views: Vec<Buffer>,
     lights: Option<Buffer>,
@@ -45,7 +56,7 @@ impl FrameData {
     pub fn new(
         gpu: &Gpu,
         resources: &Resources,
-        environment: Option<&EnvironmentMaps>,
+        environment: EnvironmentLight,
         atlas: Option<&ShadowAtlas>,
         scene: &Scene,
         shot: &Shot,
@@ -53,11 +64,13 @@ impl FrameData {
         let Shot { plan, camera, lighting, .. } = shot;
         let lights: Vec<LightSource> =
             plan.lights.lights.iter().map(|&light| light_source(light, lighting, &plan.shadows)).collect();
-        let eye = frame_uniforms(camera, lighting, environment);
+        let eye = frame_uniforms(camera, lighting, environment.maps);
         let views = std::iter::once(eye).chain(plan.shadows.maps.iter().map(light_view));
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
+        let mean_radiance = environment.maps.map_or(Vec3::ZERO, EnvironmentMaps::mean_radiance);
         let mut data = Self {
+            mean_radiance: mean_radiance * lighting.surroundings.strength,
             views: views
                 .map(|view| filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[view]))
                 .collect::<Result<_, _>>()?,
@@ -87,14 +100,18 @@ impl FrameData {
         &mut self,
         gpu: &Gpu,
         resources: &Resources,
-        environment: Option<&EnvironmentMaps>,
+        environment: EnvironmentLight,
         atlas: Option<&ShadowAtlas>,
         plan: &Plan,
     ) -> Result<(), GpuError> {
         let mut offered = vec![("ObjectList", Resource::Buffer(&self.objects))];
-        if let Some(maps) = environment {
+        if let Some(maps) = environment.maps {
             offered.push(("environment_map", Resource::Texture(&maps.map)));
             offered.push(("environment_sampler", Resource::Sampler(&maps.sampler)));
+        }
+        if let Some(lobes) = environment.lobes {
+            offered.push(("lobe_table", Resource::Texture(&lobes.map)));
+            offered.push(("lobe_table_sampler", Resource::Sampler(&lobes.sampler)));
         }
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));

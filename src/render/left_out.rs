@@ -128,7 +128,7 @@ impl List {
         for (what, word, why) in [
             ("shadow maps", "shadow", reason_of_no_shadows(plan, options)),
             ("look-up tables", "table", "the standard material's albedo is a closed fit"),
-            ("environment maps", "environment", "the surroundings are a constant radiance"),
+            ("environment maps", "environment", "nothing is lit"),
         ] {
             if !used.iter().flat_map(|shader| shader.bindings).any(|binding| binding.name.contains(word)) {
                 self.add(what, why);

@@ -2,10 +2,8 @@
 
 use super::options::FrameOptions;
 use crate::asset::Topology;
-use crate::material::AlphaMode;
+use crate::material::{AlphaMode, Cloth};
 use crate::scene::{Instance, Scene, ShadowMaps};
-
-use super::cloth::cloth_shader;
 
 /// What the light of a frame takes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -28,8 +26,8 @@ impl Lit {
             let material = &scene.materials()[instance.material];
             let is_solid =
                 scene.asset().meshes[instance.mesh].primitives[instance.primitive].topology == Topology::Triangles;
-            let blends = material.standard.alpha_mode == AlphaMode::Blend
-                || material.cloth.as_ref().is_some_and(|cloth| cloth_shader(cloth).blends);
+            let blends =
+                material.standard.alpha_mode == AlphaMode::Blend || matches!(material.cloth, Some(Cloth::Gauze(_)));
             is_solid && (material.fur.is_some() || blends)
         };
         Self {

@@ -1,5 +1,6 @@
 //! What a plan takes on the device, known before the device is asked.
 
+use super::environment::{backdrop_bytes, environment_bytes};
 use super::options::FrameOptions;
 use super::pass::transparency::Lists;
 use super::plan::{Plan, TextureUse};
@@ -74,6 +75,15 @@ impl Plan {
             for (name, bytes) in Lists::first_bytes(options.size) {
                 add(name.to_owned(), bytes);
             }
+        }
+        let environment = &options.surroundings.environment;
+        if self.is_lit() {
+            let maps = environment_bytes(environment, &options.environment_quality, self.binds_lobes());
+            maps.for_each(|(name, bytes)| add(name.to_owned(), bytes));
+        }
+        if options.shows_environment() {
+            let (name, bytes) = backdrop_bytes(environment);
+            add(name.to_owned(), bytes);
         }
         add(PICTURE_NAME.to_owned(), format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0));
         owners

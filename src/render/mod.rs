@@ -31,6 +31,9 @@ mod targets;
 mod texture;
 
 pub use count::PassFragments;
+pub use environment::{
+    Backdrop, Behind, EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes,
+};
 pub use file::write_file;
 pub use left_out::LeftOut;
 pub use map::StandIn;
@@ -49,12 +52,11 @@ pub use stream::Stream;
 pub use table::Table;
 pub use targets::Attachment;
 
-use crate::asset::Environment;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
 use crate::scene::{self, Camera, LightLists, Lighting, Pose, Scene, SceneError, ShadowMaps};
 use ash::vk;
-use environment::EnvironmentMaps;
-use frame_data::FrameData;
+use environment::{BackdropImage, EnvironmentMaps, LobeTable};
+use frame_data::{EnvironmentLight, FrameData};
 use glam::Vec4;
 use memory::PICTURE_NAME;
 use motion::Motion;
@@ -65,7 +67,6 @@ use resources::Resources;
 use shadow::ShadowAtlas;
 use std::borrow::Cow;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 use sway::SwayMemory;
 use targets::Targets;
@@ -164,6 +165,13 @@ impl Shot {
     }
 }
 
+impl Shot {
+    /// What the camera sees of the surroundings.
+    fn backdrop(&self, size: [u32; 2]) -> Backdrop {
+        Backdrop::new(&self.lighting.surroundings, &self.camera, size)
+    }
+}
+
 /// What one frame reads, made and not yet recorded.
 struct Prepared {
     motion: Motion,
@@ -183,6 +191,9 @@ pub struct Renderer {
     environment: Option<EnvironmentMaps>,
     /// Shadow maps, of the last frame.
     atlas: Option<ShadowAtlas>,
+    lobes: Option<LobeTable>,
+    /// What stands behind the scene.
+    backdrop: Option<BackdropImage>,
     /// Strands that lag behind.
     sway: SwayMemory,
     /// What blends, where the last frame had any.
@@ -212,6 +223,8 @@ impl Renderer {
             scene: None,
             environment: None,
             atlas: None,
+            lobes: None,
+            backdrop: None,
             sway: SwayMemory::default(),
             lists: None,
         })
@@ -278,10 +291,13 @@ impl Renderer {
             size: options.size,
             rgba: self.gpu.read_image(self.picture.insert(target))?,
             radiance,
-            background: match options.background {
-                Background::Environment => Some(shot.lighting.surroundings.constant_radiance().unwrap_or_default()),
-                Background::Color(color) => Some(color),
-                Background::Transparent => None,
+            behind: match options.background {
+                Background::Environment => match shot.lighting.surroundings.constant_radiance() {
+                    Some(radiance) => Behind::Color(radiance),
+                    None => Behind::Environment(shot.backdrop(options.size)),
+                },
+                Background::Color(color) => Behind::Color(color),
+                Background::Transparent => Behind::Transparent,
             },
         };
         let pipelines_ms = self.resources.pipelines().map(crate::gpu::Pipeline::creation_ms).sum();
@@ -360,16 +376,15 @@ impl Renderer {
             let capacity = larger.unwrap_or(Lists::first_capacity(options.size));
             self.lists = Some(Lists::new(&self.gpu, options.size, capacity)?);
         }
-        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format);
+        let has_backdrop = options.shows_environment();
+        let tonemap = PipelineSpec::tonemap(options.tonemap, options.hdr_format, target_format, has_backdrop);
         for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
             self.resources.make_pipeline(spec)?;
         }
-        if shot.plan.is_lit() {
-            self.prepare_environment(&shot.lighting.surroundings.environment)?;
-        }
+        self.prepare_environment(&shot.plan, options)?;
         self.prepare_atlas(&shot.plan.shadows)?;
-        let (environment, atlas) = (self.environment.as_ref(), self.atlas.as_ref());
-        let data = FrameData::new(&self.gpu, &self.resources, environment, atlas, scene, shot)?;
+        let light = EnvironmentLight { maps: self.environment.as_ref(), lobes: self.lobes.as_ref() };
+        let data = FrameData::new(&self.gpu, &self.resources, light, self.atlas.as_ref(), scene, shot)?;
         Ok(Prepared { motion, data, tonemap })
     }
 
@@ -385,12 +400,20 @@ impl Renderer {
         Ok(())
     }
 
-    /// Makes what the environment is on the device, if the last frame had another one.
-    fn prepare_environment(&mut self, environment: &Arc<Environment>) -> Result<(), RenderError> {
-        if !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment)) {
-            // The old one goes first: two need not fit at once.
+    /// Makes what the environment is on the device, if the last frame had another one; the old one goes first, as two
+    /// need not fit at once.
+    fn prepare_environment(&mut self, plan: &Plan, options: &FrameOptions) -> Result<(), RenderError> {
+        let (gpu, environment, quality) = (&self.gpu, &options.surroundings.environment, options.environment_quality);
+        if plan.is_lit() && !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment, quality)) {
             self.environment = None;
-            self.environment = Some(EnvironmentMaps::new(&self.gpu, environment)?);
+            self.environment = Some(EnvironmentMaps::new(gpu, environment, quality)?);
+        }
+        if plan.binds_lobes() && !self.lobes.as_ref().is_some_and(|lobes| lobes.is_of(&quality)) {
+            self.lobes = Some(LobeTable::new(gpu, &quality)?);
+        }
+        if options.shows_environment() && !self.backdrop.as_ref().is_some_and(|image| image.is_of(environment)) {
+            self.backdrop = None;
+            self.backdrop = Some(BackdropImage::new(gpu, environment)?);
         }
         Ok(())
     }
@@ -421,7 +444,8 @@ impl Renderer {
         target: &Image,
     ) -> Result<(), RenderError> {
         let (Some(targets), resources) = (&self.targets, &self.resources) else { return Ok(()) };
-        let display = Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), target)?;
+        let display =
+            Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), self.backdrop.as_ref(), target)?;
         let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
         let (composition, atlas) = (composition.as_ref(), self.atlas.as_ref());
         let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, atlas, composition };

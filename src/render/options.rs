@@ -1,6 +1,6 @@
 //! What one frame is asked to be.
 
-use super::RenderError;
+use super::{EnvironmentQuality, RenderError};
 use crate::asset::{Asset, Primitive, Topology};
 use crate::material::{Fur, Material};
 use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
@@ -36,6 +36,8 @@ pub struct FrameOptions {
     pub lights: Vec<Light>,
     /// Shadows of lights.
     pub shadows: Shadows,
+    /// How finely the surroundings are prepared.
+    pub environment_quality: EnvironmentQuality,
     /// What is shown where nothing was drawn.
     pub background: Background,
     /// Format of the linear colour target.
@@ -70,6 +72,7 @@ impl Default for FrameOptions {
             surroundings: Surroundings::default(),
             lights: Vec::new(),
             shadows: Shadows::default(),
+            environment_quality: EnvironmentQuality::default(),
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
             layers: None,
@@ -86,6 +89,14 @@ impl FrameOptions {
     /// Shells of a coat whose material says `layers`.
     pub fn layers_of_coat(&self, layers: u32) -> u32 {
         self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
+    }
+
+    /// Whether the picture shows the environment where nothing was drawn. A constant one is just a colour, and a format
+    /// without alpha cannot tell where that is: there the environment's mean stands behind.
+    pub fn shows_environment(&self) -> bool {
+        self.background == Background::Environment
+            && self.hdr_format.has_alpha()
+            && self.surroundings.constant_radiance().is_none()
     }
 
     /// Whether strands of this coat lag behind: they have inertia, and something can move them.
@@ -115,6 +126,9 @@ impl FrameOptions {
         let Surroundings { strength, rotation_deg, .. } = self.surroundings;
         if !(strength >= 0.0 && strength.is_finite() && rotation_deg.is_finite()) {
             return wrong("surroundings", "strength and rotation must be finite, the strength not negative".to_owned());
+        }
+        if let Some(problem) = self.environment_quality.problem() {
+            return wrong("environment quality", problem);
         }
         if self.lights.iter().any(|light| !light.is_finite()) {
             return wrong("lights", "places, directions and intensities must be finite".to_owned());

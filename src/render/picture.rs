@@ -1,7 +1,7 @@
 //! A rendered picture on the host, and its files.
 
-use super::{RenderError, write_file};
-use glam::{Vec3, Vec4};
+use super::{Behind, RenderError, write_file};
+use glam::Vec4;
 use std::path::Path;
 
 /// A rendered picture.
@@ -13,8 +13,8 @@ pub struct Picture {
     pub rgba: Vec<u8>,
     /// Linear HDR radiance before exposure and tone curve, premultiplied, rows from the top; empty unless asked for.
     pub radiance: Vec<Vec4>,
-    /// What stands behind where nothing was drawn, linear RGB; `None` with a transparent background.
-    pub background: Option<Vec3>,
+    /// What stands behind where nothing was drawn.
+    pub behind: Behind,
 }
 
 impl Picture {
@@ -71,8 +71,7 @@ impl Picture {
         }
         let pixel = |position: Vec2<usize>| {
             let color = self.radiance[position.1 * width + position.0];
-            let behind = self.background.map_or(Vec4::ZERO, |background| background.extend(1.0) * (1.0 - color.w));
-            let shown = color + behind;
+            let shown = color + self.behind.at(position.0 as u32, position.1 as u32) * (1.0 - color.w);
             (shown.x, shown.y, shown.z, shown.w)
         };
         let image = Image::from_channels((width, height), SpecificChannels::rgba(pixel));
@@ -111,7 +110,12 @@ mod tests {
     use super::*;
 
     fn picture() -> Picture {
-        Picture { size: [2, 1], rgba: vec![1, 2, 3, 255, 4, 5, 6, 255], radiance: Vec::new(), background: None }
+        Picture {
+            size: [2, 1],
+            rgba: vec![1, 2, 3, 255, 4, 5, 6, 255],
+            radiance: Vec::new(),
+            behind: Behind::Transparent,
+        }
     }
 
     #[test]

@@ -252,6 +252,13 @@ impl PipelineSpec {
         }
     }
 
+    /// Whether what it draws lets light through in part: coats, gauze, and what blends by its alpha. What transmits light
+    /// otherwise casts the shadow of something opaque.
+    pub fn casts_in_part(&self) -> bool {
+        let has_alpha = self.constants.contains(&("ALPHA_MODE", alpha_constant(AlphaMode::Blend)));
+        has_alpha || ["fur.frag", "gauze.frag"].iter().any(|file| self.fragment.starts_with(file))
+    }
+
     /// The pipeline by which what this one draws casts its shadow into `target`. It keeps what decides where it lets light
     /// through, and reads nothing else.
     pub fn casting(&self, target: Target) -> Self {
@@ -310,10 +317,10 @@ impl PipelineSpec {
     }
 
     /// The pipeline that makes a picture of `target_format` from the HDR image.
-    pub fn tonemap(tonemap: Tonemap, hdr_format: HdrFormat, target_format: vk::Format) -> Self {
+    pub fn tonemap(tonemap: Tonemap, hdr_format: HdrFormat, target_format: vk::Format, backdrop: bool) -> Self {
         Self {
             vertex: "tonemap.vert".to_owned(),
-            fragment: "tonemap.frag".to_owned(),
+            fragment: if backdrop { "tonemap.frag+BACKDROP" } else { "tonemap.frag" }.to_owned(),
             constants: vec![
                 ("OPERATOR", tonemap.operator()),
                 ("ENCODE_SRGB", u32::from(!is_srgb(target_format))),

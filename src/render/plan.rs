@@ -320,7 +320,7 @@ impl Plan {
                 DrawKind::Fur { material, layers } => DrawKind::Fur { material, layers: casting_layers(layers) },
                 surface => surface,
             };
-            let is_translucent = shown.blend || matches!(kind, DrawKind::Fur { .. });
+            let is_translucent = shown.casts_in_part();
             let targets = match is_translucent {
                 true => &[Target::ShadowFront, Target::ShadowBack, Target::ShadowLayers][..],
                 false => &[Target::ShadowFront],
@@ -381,6 +381,11 @@ impl Plan {
         self.pipelines.iter().any(shows_light)
     }
 
+    /// Whether any shader asks how lobes look into the environment.
+    pub fn binds_lobes(&self) -> bool {
+        self.pipelines.iter().any(|spec| spec.bindings().contains("lobe_table"))
+    }
+
     /// How often the vertices and indices of (mesh, primitive) are on the device.
     pub fn copies_of(&self, index: (usize, usize)) -> u32 {
         self.copies.get(&index).copied().unwrap_or(1)
@@ -419,9 +424,9 @@ impl Plan {
             (Pass::Deform, !self.deforms.is_empty()),
             (Pass::Sway, !self.sways.is_empty()),
             (Pass::Shadow, self.lit.shadows),
-            (Pass::ShadowFront, !self.shadows.front.is_empty()),
-            (Pass::ShadowBack, !self.shadows.back.is_empty()),
-            (Pass::ShadowLayers, !self.shadows.layers.is_empty()),
+            (Pass::ShadowFront, self.lit.translucent_shadows),
+            (Pass::ShadowBack, self.lit.translucent_shadows),
+            (Pass::ShadowLayers, self.lit.translucent_shadows),
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),

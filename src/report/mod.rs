@@ -13,6 +13,7 @@ pub mod metric;
 mod page;
 mod plot;
 mod question;
+mod shadow;
 pub mod statistics;
 mod sweep;
 mod table;
@@ -153,5 +154,6 @@ pub fn measure(
     progress("furnace", 0, 1);
     let mut report = Report::new(gpu.info(), questions, &cases, &sweep, effort);
     report.features.push(transparency::feature(gpu, effort, report.clock, progress)?);
+    report.features.push(shadow::feature(gpu, effort, progress)?);
     Ok(report)
 }

@@ -35,6 +35,8 @@ pub(super) const ROUGHNESS: Domain = Domain::Uniform(0.0, 1.0, &[0.0, 1e-40, 1e-
 pub(super) const COSINE: Domain = Domain::Uniform(0.0, 1.0, &[0.0, 1e-40, 1e-7, 1e-4, 1e-2, ALMOST_ONE, 1.0]);
 /// A GGX width, in [1e-3, 1]: roughness 0 to 1 at every anisotropy.
 pub(super) const ALPHA: Domain = Domain::Log(1e-3, 1.0, &[1e-3, 0.05, 1.0]);
+/// Radiance of surroundings.
+pub(super) const RADIANCE: Domain = Domain::Log(1e-3, 64512.0, &[0.0, 1.0, 64512.0]);
 /// Largest number below 1.
 pub(super) const ALMOST_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 

@@ -24,6 +24,7 @@ mod deform;
 mod determinism;
 mod display;
 mod edges;
+mod environment;
 mod everything;
 mod fuzz;
 mod gauze;

@@ -76,6 +76,21 @@ impl Environment {
         self.texels.iter().all(|texel| *texel == first).then_some(Vec3::from_array(first))
     }
 
+    /// Linear radiance from a direction of any length, bilinear between texels.
+    pub fn radiance(&self, direction: Vec3) -> Vec3 {
+        let [width, height] = self.size.map(|side| side as i64);
+        let polar = direction.x.hypot(direction.z).atan2(direction.y);
+        let u = direction.z.atan2(direction.x) / TAU + 0.5;
+        let (x, y) = (u * width as f32 - 0.5, polar / PI * height as f32 - 0.5);
+        let texel = |dx: i64, dy: i64| {
+            let column = (x.floor() as i64 + dx).rem_euclid(width);
+            let row = (y.floor() as i64 + dy).clamp(0, height - 1);
+            Vec3::from_array(self.texels[(row * width + column) as usize])
+        };
+        let part = x - x.floor();
+        texel(0, 0).lerp(texel(1, 0), part).lerp(texel(0, 1).lerp(texel(1, 1), part), y - y.floor())
+    }
+
     /// Tells environments of different size or texels apart, whatever their names.
     pub fn content_hash(&self) -> u64 {
         fnv1a([bytemuck::bytes_of(&self.size), bytemuck::cast_slice(&self.texels)])

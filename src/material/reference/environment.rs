@@ -162,10 +162,12 @@ pub fn prefiltered(axis: DVec3, alpha: f64, radiance: impl Fn(DVec3) -> DVec3) -
     sum / weights
 }
 
-/// 1 - the length of the mean direction of that lobe.
+/// 1 - the length of the mean direction of that lobe, weighted by its density to the power of 3/2: of the core of the
+/// lobe, which its picture is made of, rather than of its long tail.
 pub fn front_spread(alpha: f64) -> f64 {
     let (mut sum, mut weights) = (0.0, 0.0);
     front_rings(alpha, 2000, |weight, cosine| {
+        let weight = weight * front_lobe(cosine, alpha).sqrt();
         sum += weight * (1.0 - cosine);
         weights += weight;
     });
@@ -192,7 +194,7 @@ pub fn level(roughness: f64, last: f64) -> f64 {
 /// What the table of lobes says of one lobe seen under one cosine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LobeEntry {
-    /// Sine of the mean direction over the eye's, positive towards the mirror direction.
+    /// Sine of the mean direction, by density^1.5, over the eye's; positive towards the mirror direction.
     pub mirror: f64,
     /// Perceptual roughness of the front-seen GGX lobe with the same spread, at most 1.
     pub roughness: f64,
@@ -202,12 +204,12 @@ pub struct LobeEntry {
     pub fresnel: f64,
 }
 
-/// The entry of GGX, mu in (0, 1].
+/// The entry of GGX, mu in (0, 1).
 pub fn ggx_entry(mu: f64, roughness: f64) -> LobeEntry {
     let alpha = ggx::alpha_of_roughness(roughness);
     let v = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
     const SIDE: usize = 256;
-    let (mut sum, mut albedo, mut fresnel) = (DVec3::ZERO, 0.0, 0.0);
+    let (mut sum, mut weights, mut albedo, mut fresnel) = (DVec3::ZERO, 0.0, 0.0, 0.0);
     for i in 0..SIDE * SIDE {
         let u = (DVec2::new((i % SIDE) as f64, (i / SIDE) as f64) + 0.5) / SIDE as f64;
         let h = visible_facet(u, v, alpha);
@@ -216,42 +218,44 @@ pub fn ggx_entry(mu: f64, roughness: f64) -> LobeEntry {
             // G2 / G1(v), by what the density of facets leaves of the lobe.
             let lobe = ggx::ndf(h, alpha, alpha) * ggx::masking_shadowing_times_cosine(v, l, alpha, alpha);
             let weight = lobe * 4.0 * v.z / (ggx::ndf(h, alpha, alpha) * masking(v.z, alpha));
-            sum += weight * l;
+            sum += weight * lobe.sqrt() * l;
+            weights += weight * lobe.sqrt();
             albedo += weight;
             fresnel += weight * ggx::schlick(0.0, v.dot(h));
         }
     }
-    entry(sum, albedo, fresnel, (SIDE * SIDE) as f64, v.x, if alpha > ggx::SMALLEST_ALPHA { roughness } else { 0.0 })
+    let is_mirror = roughness == 0.0;
+    LobeEntry {
+        mirror: if is_mirror { 1.0 } else { -sum.x / (sum.length() * v.x) },
+        roughness: if is_mirror { 0.0 } else { roughness_of_spread(1.0 - sum.length() / weights) },
+        albedo: albedo / (SIDE * SIDE) as f64,
+        fresnel: fresnel / albedo,
+    }
 }
 
-/// The entry of a lobe of sheen, mu in (0, 1]: quadrature over the hemisphere of light.
+/// The entry of a lobe of sheen, mu in (0, 1): quadrature over the hemisphere of light.
 pub fn sheen_entry(lobe: &Lobe, mu: f64) -> LobeEntry {
     const SIDE: usize = 400;
     let v = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
-    let (mut sum, mut albedo) = (DVec3::ZERO, 0.0);
+    let (mut sum, mut weights, mut albedo) = (DVec3::ZERO, 0.0, 0.0);
     for i in 0..SIDE * SIDE {
         let z = ((i % SIDE) as f64 + 0.5) / SIDE as f64;
         let (y, x) = (((i / SIDE) as f64 + 0.5) / SIDE as f64 * TAU).sin_cos();
         let sine = (1.0 - z * z).sqrt();
         let l = DVec3::new(sine * x, sine * y, z);
-        let weight = lobe.times_cosine(v, l) * TAU;
-        sum += weight * l;
-        albedo += weight;
+        let density = lobe.times_cosine(v, l);
+        sum += density.powf(1.5) * l;
+        weights += density.powf(1.5);
+        albedo += density;
     }
-    entry(sum, albedo, 0.0, (SIDE * SIDE) as f64, v.x, 1.0)
-}
-
-/// From sums over `count` samples; a lobe of roughness 0 is a mirror's.
-fn entry(sum: DVec3, albedo: f64, fresnel: f64, count: f64, sine_of_eye: f64, roughness: f64) -> LobeEntry {
-    let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-    let length = sum.length();
-    let mirror = if sine_of_eye > 1e-6 { share(-sum.x, length) / sine_of_eye } else { 1.0 };
-    let is_mirror = roughness == 0.0;
+    if weights == 0.0 {
+        return LobeEntry { mirror: 0.0, roughness: 1.0, albedo: 0.0, fresnel: 0.0 };
+    }
     LobeEntry {
-        mirror: if is_mirror { 1.0 } else { mirror },
-        roughness: if is_mirror { 0.0 } else { roughness_of_spread(1.0 - share(length, albedo)) },
-        albedo: albedo / count,
-        fresnel: share(fresnel, albedo),
+        mirror: -sum.x / (sum.length() * v.x),
+        roughness: roughness_of_spread(1.0 - sum.length() / weights),
+        albedo: albedo * TAU / (SIDE * SIDE) as f64,
+        fresnel: 0.0,
     }
 }
 

@@ -1,9 +1,8 @@
 //! Twin of `fuzz.glsl`: a Lambert base under the fuzz of its pile and of standing fibres.
 //!
-//! Kelemen & Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model" (the base); Lagarde & de Rousiers
-//! 2014, "Moving Frostbite to Physically Based Rendering" (specular occlusion); Jimenez et al. 2016, "Practical Real-Time
-//! Strategies for Accurate Indirect Occlusion" (light that bounces within a crevice).
+//! Kelemen & Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model" (the base).
 
+use super::occlusion;
 use super::sheen::Lobe;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -59,25 +58,12 @@ impl Surface<'_> {
 
     /// Radiance under constant white radiance 1 in a crevice that leaves `occlusion` of the sky.
     pub fn ambient(&self, mu_v: f64, occlusion: f64) -> DVec3 {
-        let bounced = |share: f64, color: DVec3| DVec3::from(color.to_array().map(|c| bounced_occlusion(share, c)));
-        let of_lobe = |lobe: &Lobe<'_>, color: DVec3| {
-            let share = specular_occlusion(mu_v, lobe.roughness, occlusion);
-            color * lobe.entry(mu_v).albedo * bounced(share, color)
-        };
+        let bounced = |share: f64, color: DVec3| DVec3::from(color.to_array().map(|c| occlusion::bounced(share, c)));
+        // Fuzz scatters as widely as the roughest highlight.
+        let seen = occlusion::of_lobe(mu_v, 1.0, occlusion);
+        let of_lobe = |lobe: &Lobe<'_>, color: DVec3| color * lobe.entry(mu_v).albedo * bounced(seen, color);
         of_lobe(&self.pile, self.seen())
             + of_lobe(&self.fibre, self.fibre_color)
             + self.diffuse * (1.0 - self.fuzz_albedo(mu_v)) * bounced(occlusion, self.diffuse)
     }
-}
-
-/// Share of the surroundings that a lobe sees through a crevice: all in [0, 1].
-pub fn specular_occlusion(mu_v: f64, roughness: f64, occlusion: f64) -> f64 {
-    let raised = if mu_v + occlusion > 0.0 { (mu_v + occlusion).powf(roughness * roughness) } else { 0.0 };
-    (raised - 1.0 + occlusion).clamp(0.0, 1.0)
-}
-
-/// Occlusion of a crevice whose walls reflect that share of the light: all in [0, 1].
-pub fn bounced_occlusion(x: f64, color: f64) -> f64 {
-    let (a, b, c) = (2.0404 * color - 0.3324, -4.7951 * color + 0.6417, 2.7552 * color + 0.6903);
-    x.max(((x * a + b) * x + c) * x).clamp(0.0, 1.0)
 }

@@ -5,7 +5,7 @@ use crate::material::Cotton;
 use crate::render::map::Map;
 use crate::render::material::transform;
 use crate::shader::layout::CottonUniforms;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 pub fn shader(cotton: &Cotton) -> ClothShader {
     let has_fibre = cotton.sheen_color != Vec3::ZERO;
@@ -30,9 +30,13 @@ pub fn shader(cotton: &Cotton) -> ClothShader {
 }
 
 pub fn uniforms(cotton: &Cotton) -> CottonUniforms {
+    let turn = Vec2::from_angle(cotton.env_rotation.to_radians());
     CottonUniforms {
         sheen_color: cotton.sheen_color.to_array(),
         sheen_roughness: cotton.sheen_roughness,
+        environment_turn: turn.to_array(),
+        _reserved_0: 0.0,
+        _reserved_1: 0.0,
         sheen_color_transform: transform(cotton.sheen_color_texture),
         sheen_transform: transform(cotton.sheen_map),
         sheen_roughness_transform: transform(cotton.sheen_roughness_map),

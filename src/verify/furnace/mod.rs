@@ -7,6 +7,7 @@
 mod anisotropy;
 mod claim;
 mod classic;
+mod environment_lobe;
 mod fur;
 mod fuzz;
 mod gauze;
@@ -14,6 +15,7 @@ mod glint;
 mod laser;
 mod layered;
 mod light;
+mod occlusion;
 mod quadrature;
 mod satin;
 mod sheen;
@@ -111,6 +113,8 @@ const FAMILIES: &[fn() -> Vec<Claim>] = &[
     laser::claims,
     glint::claims,
     layered::claims,
+    occlusion::claims,
+    environment_lobe::claims,
     classic::claims,
 ];
 

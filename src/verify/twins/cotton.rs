@@ -4,7 +4,9 @@ use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
 use super::super::twin::Twin;
 use super::sheen::{Lobe, around_two_lobes};
 use crate::material::Sheen;
-use crate::material::reference::{fuzz, ggx};
+use crate::material::reference::classic::cotton;
+use crate::material::reference::{ggx, occlusion};
+use glam::DVec3;
 use std::f64::consts::PI;
 
 pub(super) const TWINS: &[Twin] = &[
@@ -29,17 +31,14 @@ pub(super) const TWINS: &[Twin] = &[
             (base * scale + sheen_color * lobe(&fibre)).to_array().to_vec()
         },
     ),
-    Twin::new("cotton_classic_ambient", around_two_lobes!([UNIT, UNIT], [COSINE, ROUGHNESS, UNIT]), |given| {
-        let (base_color, sheen_color) = (given.vec3(), given.vec3());
-        let (pile, fibre) = (Lobe::new(given), Lobe::new(given));
-        let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
-        let scale = 1.0 - sheen_color.max_element() * fibre.albedo;
-        let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
-        let channel = |at: usize| {
-            base_color[at] * scale * occlusion
-                + 0.04 * pile.albedo * fuzz::bounced_occlusion(seen(roughness.x), 0.04)
-                + sheen_color[at] * fibre.albedo * fuzz::bounced_occlusion(seen(roughness.y), sheen_color[at])
-        };
-        vec![channel(0), channel(1), channel(2)]
+    Twin::new("cotton_classic_occlusion", &[COSINE, ROUGHNESS, UNIT], |given| {
+        vec![cotton::occlusion_of_lobe(given.number(), given.number(), given.number())]
+    }),
+    Twin::new("cotton_classic_lobe_ambient", &[UNIT, UNIT, COSINE, ROUGHNESS, UNIT, UNIT], |given| {
+        let (color, albedo) = (given.vec3(), given.number());
+        let seen = cotton::occlusion_of_lobe(given.number(), given.number(), given.number());
+        let light = given.vec3();
+        let bounced = DVec3::from(color.to_array().map(|color| occlusion::bounced(seen, color)));
+        (color * albedo * bounced * light).to_array().to_vec()
     }),
 ];

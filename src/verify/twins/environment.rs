@@ -2,6 +2,7 @@
 
 use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS};
 use super::super::twin::{Rule, Twin};
+use super::ULP;
 use crate::material::reference::environment;
 use glam::{DVec2, DVec3};
 
@@ -61,6 +62,13 @@ pub(super) const TWINS: &[Twin] = &[
     Twin::new("environment_visible_facet", &[INSIDE, Domain::Hemisphere, ALPHA], |given| {
         let (u, v): (DVec2, DVec3) = (given.vec2(), given.vec3());
         environment::visible_facet(u, v, given.number()).to_array().to_vec()
+    })
+    // Cap and view cancel down to what stands above the horizon, (1 - u.y) (1 + v'.z) with v' the stretched view: an error
+    // of two units in the last place of 1 is that much larger of the facet.
+    .allowance(|given| {
+        let (u, v, alpha) = (given.vec2(), given.vec3(), given.number());
+        let stretched = DVec3::new(v.x * alpha, v.y * alpha, v.z).normalize();
+        vec![2.0 * ULP / ((1.0 - u.y) * (1.0 + stretched.z)); 3]
     })
     .rule(Rule::Conditioned(4)),
     Twin::new("environment_masking", &[Domain::Uniform(1e-7, 1.0, &[1e-7, 1e-3, 1.0]), ALPHA], |given| {

@@ -1,9 +1,8 @@
 //! Judges `fuzz.glsl`.
 
-use super::super::domain::{COSINE, Domain, ROUGHNESS, UNIT};
+use super::super::domain::{Domain, UNIT};
 use super::super::twin::{Given, Twin};
 use super::sheen::{Lobe, MODEL, around_two_lobes};
-use crate::material::reference::fuzz;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -66,25 +65,12 @@ pub(super) const TWINS: &[Twin] = &[
             (lobes + surface.coupled_diffuse * left * l.z).to_array().to_vec()
         },
     ),
-    Twin::new("fuzz_specular_occlusion", &[COSINE, ROUGHNESS, UNIT], |given| {
-        vec![fuzz::specular_occlusion(given.number(), given.number(), given.number())]
-    }),
-    Twin::new("fuzz_bounced_occlusion", &[UNIT, UNIT], |given| {
-        let (occlusion, color) = (given.number(), given.vec3());
-        color.to_array().map(|color| fuzz::bounced_occlusion(occlusion, color)).to_vec()
-    }),
-    Twin::new("fuzz_ambient", around_two_lobes!([UNIT, UNIT, UNIT, UNIT], [COSINE, ROUGHNESS, UNIT]), |given| {
+    Twin::new("fuzz_ambient", around_two_lobes!([UNIT, UNIT, UNIT, UNIT], [UNIT, UNIT, UNIT]), |given| {
         let surface = Surface::new(given);
-        let (mu_v, roughness, occlusion) = (given.number(), given.vec2(), given.number());
-        let bounced = |share: f64, color: DVec3| {
-            DVec3::from_array(color.to_array().map(|color| fuzz::bounced_occlusion(share, color)))
-        };
+        let (pile_light, fibre_light, base_light) = (given.vec3(), given.vec3(), given.vec3());
         let pile = surface.pile_color * surface.pile.albedo;
         let fibre = surface.fibre_color * surface.fibre.albedo;
-        let seen = |roughness| fuzz::specular_occlusion(mu_v, roughness, occlusion);
-        let sum = pile * bounced(seen(roughness.x), surface.pile_color)
-            + fibre * bounced(seen(roughness.y), surface.fibre_color)
-            + surface.diffuse * (1.0 - pile - fibre) * bounced(occlusion, surface.diffuse);
-        sum.to_array().to_vec()
+        let base = surface.diffuse * (1.0 - pile - fibre);
+        (pile * pile_light + fibre * fibre_light + base * base_light).to_array().to_vec()
     }),
 ];

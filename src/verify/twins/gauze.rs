@@ -1,6 +1,6 @@
 //! Judges `gauze.glsl`.
 
-use super::super::domain::{COSINE, Domain, UNIT};
+use super::super::domain::{COSINE, Domain, RADIANCE, UNIT};
 use super::super::twin::{Given, Twin};
 use super::ULP;
 use crate::material::reference::classic::gauze as classic;
@@ -84,9 +84,11 @@ pub(super) const TWINS: &[Twin] = &[
         let value = surface.coupled * (1.0 - albedo_l) * opacity(depth_l) * side * mu_l.abs();
         value.to_array().to_vec()
     }),
-    Twin::new("gauze_ambient", &[UNIT, DEPTH, UNIT, UNIT, UNIT], |given| {
+    Twin::new("gauze_ambient", &[UNIT, DEPTH, UNIT, UNIT, UNIT, RADIANCE, RADIANCE, RADIANCE, UNIT], |given| {
         let (surface, albedo) = (Surface::new(given), given.vec3());
-        let mirrored = met_by_both(surface.opacity, surface.opacity);
-        (albedo * mirrored + surface.diffuse * (1.0 - albedo) * surface.opacity).to_array().to_vec()
+        let (mirrored, before, behind, through) = (given.vec3(), given.vec3(), given.vec3(), given.number());
+        let highlight = albedo * met_by_both(surface.opacity, surface.opacity) * mirrored;
+        let scattered = before * (1.0 - through) + behind * through;
+        (highlight + surface.diffuse * (1.0 - albedo) * surface.opacity * scattered).to_array().to_vec()
     }),
 ];

@@ -1,6 +1,6 @@
 //! Judges `layered.glsl`.
 
-use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS, UNIT};
+use super::super::domain::{ALPHA, COSINE, Domain, RADIANCE, ROUGHNESS, UNIT};
 use super::super::twin::{Given, Twin};
 use super::albedo::{FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use super::anisotropy::{COMPENSATION, Seen};
@@ -58,7 +58,7 @@ pub(super) const TWINS: &[Twin] = &[
         words.push(f90);
         words.extend((1.0 + f0 * (1.0 - terms.x) / terms.x.max(1e-3)).to_array());
         words.extend([ax, ay]);
-        let rest = [albedo, reflected + transmitted, reflected * coupling, transmitted * coupling];
+        let rest = [albedo, reflected, transmitted, reflected * coupling, transmitted * coupling];
         words.extend(rest.iter().flat_map(|value| value.to_array()));
         words
     })
@@ -73,7 +73,8 @@ pub(super) const TWINS: &[Twin] = &[
             ALPHA,
             ALPHA,
             UNIT,
-            UNIT,
+            HALF,
+            HALF,
             COUPLED,
             COUPLED,
             Domain::Hemisphere,
@@ -82,7 +83,8 @@ pub(super) const TWINS: &[Twin] = &[
         ],
         |given| {
             let seen = Seen::new(given);
-            let (_, _, reflected, transmitted) = (given.vec3(), given.vec3(), given.vec3(), given.vec3());
+            let _albedos = [given.vec3(), given.vec3(), given.vec3()];
+            let (reflected, transmitted) = (given.vec3(), given.vec3());
             let (v, l, terms) = (given.vec3(), given.vec3(), given.vec2());
             if v.z <= 0.0 {
                 return vec![0.0; 3];
@@ -94,11 +96,14 @@ pub(super) const TWINS: &[Twin] = &[
     ),
     Twin::new(
         "layered_base_ambient",
-        &[UNIT, UNIT, COMPENSATION, ALPHA, ALPHA, UNIT, UNIT, COUPLED, COUPLED],
+        &[UNIT, UNIT, COMPENSATION, ALPHA, ALPHA, UNIT, HALF, HALF, COUPLED, COUPLED, RADIANCE, RADIANCE, RADIANCE],
         |given| {
             let _ = Seen::new(given);
-            let (albedo, diffuse) = (given.vec3(), given.vec3());
-            (albedo + diffuse * (1.0 - albedo)).to_array().to_vec()
+            let (albedo, reflected, transmitted) = (given.vec3(), given.vec3(), given.vec3());
+            let _coupled = [given.vec3(), given.vec3()];
+            let (mirrored, before, behind) = (given.vec3(), given.vec3(), given.vec3());
+            let scattered = reflected * before + transmitted * behind;
+            (albedo * mirrored + (1.0 - albedo) * scattered).to_array().to_vec()
         },
     ),
     Twin::new("layered_coat_albedo", &[COSINE, ROUGHNESS], |given| {

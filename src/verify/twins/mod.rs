@@ -7,6 +7,7 @@ mod cotton;
 mod coverage;
 mod direction;
 mod environment;
+mod environment_lobe;
 mod fibre;
 mod film;
 mod fuzz;
@@ -19,6 +20,7 @@ mod laser;
 mod layered;
 mod light;
 mod lock;
+mod occlusion;
 mod satin;
 mod shadow;
 mod sheen;
@@ -40,6 +42,7 @@ const FILES: &[&[Twin]] = &[
     cotton::TWINS,
     coverage::TWINS,
     direction::TWINS,
+    environment_lobe::TWINS,
     fibre::TWINS,
     environment::TWINS,
     film::TWINS,
@@ -53,6 +56,7 @@ const FILES: &[&[Twin]] = &[
     layered::TWINS,
     light::TWINS,
     lock::TWINS,
+    occlusion::TWINS,
     satin::TWINS,
     shadow::TWINS,
     sheen::TWINS,

@@ -1,6 +1,6 @@
 //! Judges `standard.glsl`.
 
-use super::super::domain::{ALPHA, COSINE, Domain, ROUGHNESS, UNIT};
+use super::super::domain::{ALPHA, COSINE, Domain, RADIANCE, ROUGHNESS, UNIT};
 use super::super::twin::{Given, Twin};
 use super::albedo::{AVERAGE_ROUNDING, FIT, FRESNEL_ROUNDING, WHITE_ROUNDING};
 use crate::material::reference::ggx;
@@ -112,8 +112,13 @@ pub(super) const TWINS: &[Twin] = &[
             vec![channel(0), channel(1), channel(2)]
         },
     ),
-    Twin::new("standard_ambient", &[UNIT, ROUGHNESS, UNIT, ALPHA, UNIT, ALPHA, COMPENSATION, UNIT], |given| {
-        let surface = Surface::new(given);
-        (surface.specular_albedo + surface.diffuse * (1.0 - surface.specular_albedo)).to_array().to_vec()
-    }),
+    Twin::new(
+        "standard_ambient",
+        &[UNIT, ROUGHNESS, UNIT, ALPHA, UNIT, ALPHA, COMPENSATION, UNIT, RADIANCE, RADIANCE],
+        |given| {
+            let (surface, mirrored, scattered) = (Surface::new(given), given.vec3(), given.vec3());
+            let left = 1.0 - surface.specular_albedo;
+            (surface.specular_albedo * mirrored + surface.diffuse * left * scattered).to_array().to_vec()
+        },
+    ),
 ];

@@ -1,9 +1,10 @@
 //! Classic cotton: two lobes of fuzz over Lambert.
 //!
 //! Estevez & Kulla 2017, "Production Friendly Microfacet Sheen BRDF" (distribution); Neubelt & Pettineo 2013, "Crafting
-//! a Next-Gen Material Pipeline for The Order: 1886" (visibility).
+//! a Next-Gen Material Pipeline for The Order: 1886" (visibility); Lagarde & de Rousiers 2014, "Moving Frostbite to
+//! Physically Based Rendering" (specular occlusion).
 
-use crate::material::reference::{fuzz, ggx};
+use crate::material::reference::{ggx, occlusion as crevice};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -36,6 +37,14 @@ pub fn fuzz_times_cosine(v: DVec3, l: DVec3, alpha: f64) -> f64 {
     ndf(ggx::half_vector(v, l), alpha) * visibility(v.z, l.z) * l.z
 }
 
+/// Share of the surroundings that a lobe sees through a crevice: all in [0, 1].
+///
+/// Defect: the roughness acts backwards: the widest lobe looking straight out sees all of a half open crevice.
+pub fn occlusion_of_lobe(mu_v: f64, roughness: f64, occlusion: f64) -> f64 {
+    let raised = if mu_v + occlusion > 0.0 { (mu_v + occlusion).powf(roughness * roughness) } else { 0.0 };
+    (raised - 1.0 + occlusion).clamp(0.0, 1.0)
+}
+
 /// Cotton of one colour channel.
 #[derive(Debug, Clone, Copy)]
 pub struct Cotton {
@@ -66,8 +75,7 @@ impl Cotton {
     /// Radiance under constant white radiance 1; `pile_albedo` is the table's entry for the base's own lobe, `occlusion` 1
     /// where the sky is open.
     pub fn ambient(&self, pile_albedo: f64, sheen_albedo: f64, mu_v: f64, occlusion: f64) -> f64 {
-        let seen =
-            |roughness, color| fuzz::bounced_occlusion(fuzz::specular_occlusion(mu_v, roughness, occlusion), color);
+        let seen = |roughness, color| crevice::bounced(occlusion_of_lobe(mu_v, roughness, occlusion), color);
         self.base_color * (1.0 - self.sheen_color * sheen_albedo) * occlusion
             + 0.04 * pile_albedo * seen(self.roughness, 0.04)
             + self.sheen_color * sheen_albedo * seen(self.sheen_roughness, self.sheen_color)

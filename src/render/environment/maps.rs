@@ -1,0 +1,122 @@
+//! Prepared environments as images that shaders sample.
+
+use super::{EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes};
+use crate::asset::Environment;
+use crate::gpu::{Gpu, GpuError, Image, ImageDesc, Sampler, SamplerDesc, format_bytes, level_size};
+use ash::vk;
+use glam::Vec3;
+use std::sync::Arc;
+
+/// Every device filters it (Vulkan 1.3, "Required Format Support").
+pub(super) const FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
+/// Name of the cube on the device.
+const MAP_NAME: &str = "environment";
+/// Name of the table of lobes on the device.
+const LOBES_NAME: &str = "lobes";
+
+/// An environment on the device.
+pub struct EnvironmentMaps {
+    environment: Arc<Environment>,
+    quality: EnvironmentQuality,
+    /// Radiance over `scale`; level by level spread by rougher lobes.
+    pub map: Image,
+    /// Of the map.
+    pub sampler: Sampler,
+    /// Linear RGB radiance of a texel of 1.
+    pub scale: Vec3,
+    /// Number of the last level.
+    pub last_level: u32,
+    /// Linear RGB radiance, orthonormal real spherical harmonics, coefficient l * l + l + m.
+    pub harmonics: [Vec3; HARMONICS],
+}
+
+impl EnvironmentMaps {
+    /// Makes them, from the device's cache folder where they are there.
+    ///
+    /// # Errors
+    /// When the device is out of memory or lost.
+    pub fn new(gpu: &Gpu, environment: &Arc<Environment>, quality: EnvironmentQuality) -> Result<Self, GpuError> {
+        let prepared = prepare_environment(gpu, environment, &quality)?;
+        let last_level = prepared.last_level();
+        let PreparedEnvironment { face_px, levels, scale, harmonics } = prepared;
+        let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
+        let map = sampled_image(gpu, MAP_NAME, [face_px; 2], true, &levels)?;
+        let sampler = gpu.sampler(&SamplerDesc { wrap: CLAMPED, ..SamplerDesc::default() })?;
+        Ok(Self { environment: environment.clone(), quality, map, sampler, scale, last_level, harmonics })
+    }
+
+    /// Whether they are those of that environment.
+    pub fn are_of(&self, environment: &Arc<Environment>, quality: EnvironmentQuality) -> bool {
+        self.quality == quality && (Arc::ptr_eq(&self.environment, environment) || *self.environment == **environment)
+    }
+
+    /// Mean radiance of all directions.
+    pub fn mean_radiance(&self) -> Vec3 {
+        // Harmonic 0 is the root of 1 / 4 pi.
+        self.harmonics[0] * 0.282_094_8
+    }
+}
+
+/// The table of lobes on the device.
+pub struct LobeTable {
+    nodes: u32,
+    /// Four sheets below each other.
+    pub map: Image,
+    /// Of the map.
+    pub sampler: Sampler,
+}
+
+impl LobeTable {
+    /// Makes it, from the device's cache folder where it is there.
+    ///
+    /// # Errors
+    /// When the device is out of memory or lost.
+    pub fn new(gpu: &Gpu, quality: &EnvironmentQuality) -> Result<Self, GpuError> {
+        let texels = prepare_lobes(gpu, quality)?;
+        let map = sampled_image(gpu, LOBES_NAME, quality.table_size(), false, &[&texels])?;
+        let sampler = gpu.sampler(&SamplerDesc { wrap: CLAMPED, max_lod: 0.25, ..SamplerDesc::default() })?;
+        Ok(Self { nodes: quality.table_px, map, sampler })
+    }
+
+    /// Whether it is of that size.
+    pub fn is_of(&self, quality: &EnvironmentQuality) -> bool {
+        self.nodes == quality.table_px
+    }
+}
+
+/// Bytes on the device, by name: the cube, and the table where it is bound.
+pub fn environment_bytes(
+    environment: &Environment,
+    quality: &EnvironmentQuality,
+    binds_lobes: bool,
+) -> impl Iterator<Item = (&'static str, u64)> {
+    let (face_px, last_level) = quality.cube_of(environment);
+    let face = |level| format_bytes(FORMAT, level_size([face_px; 2], level)).unwrap_or(0);
+    let cube = (0..=last_level).map(|level| 6 * face(level)).sum();
+    let table = binds_lobes.then(|| (LOBES_NAME, format_bytes(FORMAT, quality.table_size()).unwrap_or(0)));
+    [(MAP_NAME, cube)].into_iter().chain(table)
+}
+
+const CLAMPED: [vk::SamplerAddressMode; 2] = [vk::SamplerAddressMode::CLAMP_TO_EDGE; 2];
+
+pub(super) fn sampled_image(
+    gpu: &Gpu,
+    name: &str,
+    size: [u32; 2],
+    is_cube: bool,
+    levels: &[&[u8]],
+) -> Result<Image, GpuError> {
+    let image = gpu.image(&ImageDesc {
+        name,
+        size,
+        format: FORMAT,
+        mip_levels: levels.len() as u32,
+        samples: 1,
+        usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
+        is_cube,
+    })?;
+    let mut upload = gpu.upload();
+    upload.image(&image, levels);
+    upload.finish()?;
+    Ok(image)
+}
