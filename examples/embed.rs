@@ -3,7 +3,7 @@
 #![allow(unsafe_code)]
 
 use vair::gpu::{Features, HostDevice, Image, ImageUse, ash, vk};
-use vair::render::{AovPixels, Picture};
+use vair::render::Picture;
 use vair::scene::CameraChoice;
 use vair::{FrameOptions, Gpu, Renderer, Scene};
 
@@ -37,9 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // SAFETY: `run` has waited for the queue.
     unsafe { gpu.host_idle() };
 
-    let (rgba, radiance) = (gpu.read_image(&image)?, Vec::new());
-    let picture = Picture { size: SIZE, rgba, radiance, background: None, aovs: AovPixels::default() };
-    picture.save(&out)?;
+    Picture::new(SIZE, gpu.read_image(&image)?).save(&out)?;
     println!("{out}, drawn on {} by the host's command buffer", gpu.info().name);
 
     drop((image, renderer, gpu));

@@ -12,7 +12,7 @@ const float RADIANCE_LIMIT = 64512.0;
 struct FrameUniforms {
     mat4 clip_from_world;      // reversed Z: 1 at the near plane, 0 far away; Y up
     vec3 eye_in_world;         // metres
-    uint light_count;          // entries of the light list
+    float _reserved_2;
     vec3 view_in_world;        // unit vector against the view direction; the view vector of a parallel camera
     float orthographic;        // 1 for a parallel camera, 0 for perspective
     vec3 environment_scale;    // linear RGB radiance of a texel of 1 in the environment's map
@@ -33,9 +33,9 @@ struct LightSource {
     vec3 intensity;            // linear RGB: lux (directional) or candela (point, spot)
     float spot_scale;          // 1 / (cos inner - cos outer)
     float spot_offset;         // -cos outer * spot_scale
+    uint first_shadow;         // entry of the shadow list
+    uint shadow_count;         // entries from there on, the finest map first
     float _reserved_0;
-    float _reserved_1;
-    float _reserved_2;
 };
 
 #endif

@@ -15,6 +15,8 @@ struct ObjectDraw {
     uint object_index;         // entry of the object list
     uint shell;                // number of the shell, where every shell is a draw of its own
     uint vertices_per_shell;   // where the mesh holds its vertices once a shell
+    uint first_light;          // entry of the light list
+    uint light_count;          // entries from there on: the lights that reach the object
     uint rank;                 // of what blends, which lies over which where they are equally far: the higher
     float metres_per_unit;     // of the mesh
 };

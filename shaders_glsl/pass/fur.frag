@@ -21,7 +21,6 @@
 #ifdef LIST
 #include "object.glsl"
 #include "transparency_append.glsl"
-layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
 #endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
@@ -61,6 +60,15 @@ layout(location = 7) in vec3 vertex_color;
 #endif
 
 layout(location = 0) out vec4 radiance;
+
+#ifdef OCCLUDED
+ShadowReceiver shadow_receiver() {
+    ShadowReceiver receiver;
+    receiver.normal_in_world = direction_or(root_direction_in_world, frame.view_in_world);
+    receiver.depth_m = (1.0 - height_and_length.x) * height_and_length.y;
+    return receiver;
+}
+#endif
 
 // Most places at which a distribution map is looked up along the path.
 const int MAP_TAPS = 8;

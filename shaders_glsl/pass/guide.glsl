@@ -5,7 +5,7 @@
 
 #ifdef MOTION
 #include "previous_frame.glsl"
-layout(set = 0, binding = 14, std140) uniform PreviousFrameBlock { PreviousFrame previous_frame; };
+layout(set = 0, binding = 16, std140) uniform PreviousFrameBlock { PreviousFrame previous_frame; };
 layout(location = 8) in vec3 place_in_clip;
 layout(location = 9) in vec3 previous_place_in_clip;
 #endif

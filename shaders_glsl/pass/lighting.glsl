@@ -2,6 +2,7 @@
 #ifndef VAIR_LIGHTING_GLSL
 #define VAIR_LIGHTING_GLSL
 #include "frame.glsl"
+#include "object.glsl"
 #include "environment.glsl"
 #include "light.glsl"
 
@@ -14,6 +15,10 @@ layout(set = 0, binding = 2) uniform textureCube environment_map;
 layout(set = 0, binding = 3) uniform sampler environment_sampler;
 layout(set = 0, binding = 4) uniform texture2D lobe_table;
 layout(set = 0, binding = 5) uniform sampler lobe_table_sampler;
+layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+#ifdef OCCLUDED
+#include "shadow_light.glsl"
+#endif
 
 #ifdef OCCLUDED
 #extension GL_EXT_samplerless_texture_functions : require
@@ -22,12 +27,17 @@ layout(set = 0, binding = 12) uniform texture2D screen_occlusion_map;
 
 // Lights that reach this object.
 uint light_count() {
-    return frame.light_count;
+    return draw.light_count;
 }
 
-// One of them, as it arrives.
+// One of them, as it arrives past what casts a shadow.
 LightSample light_at(uint index, vec3 position_in_world) {
-    return light_sample(lights[index], position_in_world);
+    LightSource source = lights[draw.first_light + index];
+    LightSample light = light_sample(source, position_in_world);
+#ifdef OCCLUDED
+    if (HAS_SHADOWS && any(greaterThan(light.irradiance, vec3(0.0)))) { light.irradiance *= shadow_transmittance(source, light.direction_in_world, position_in_world); }
+#endif
+    return light;
 }
 
 // Share of the ambient light that what stands around lets through, as the screen shows it.

@@ -4,7 +4,7 @@
 #include "object.glsl"
 #include "previous_frame.glsl"
 
-layout(set = 0, binding = 14, std140) uniform PreviousFrameBlock { PreviousFrame previous_frame; };
+layout(set = 0, binding = 16, std140) uniform PreviousFrameBlock { PreviousFrame previous_frame; };
 layout(set = 2, binding = 1, std430) readonly buffer PreviousObjectList { ObjectUniforms previous_objects[]; };
 
 layout(location = 9) in vec3 previous_position;

@@ -72,9 +72,13 @@ layout(location = 3) in vec4 tangent_in_world;
 layout(location = 4) in vec4 vertex_color;
 #endif
 
+#ifdef UNLIT
 layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
+#endif
 
+#ifndef SHADOW
 layout(location = 0) out vec4 radiance;
+#endif
 #ifdef LIST
 // What surface_output was given.
 vec3 listed_radiance;
@@ -153,6 +157,7 @@ float surface_opacity(float alpha) {
     return mode == 2u ? clamp(alpha, 0.0, 1.0) : 1.0;
 }
 
+#ifndef SHADOW
 // All that a surface shows: linear radiance, premultiplied by its opacity, and the share of what lies behind that it lets
 // through, by channel.
 void surface_output(vec3 premultiplied, vec3 transmittance) {
@@ -164,8 +169,18 @@ void surface_output(vec3 premultiplied, vec3 transmittance) {
     radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
 #endif
 }
+#endif
 
 #ifndef UNLIT
+#ifdef OCCLUDED
+ShadowReceiver shadow_receiver() {
+    ShadowReceiver receiver;
+    receiver.normal_in_world = direction_or(normal_in_world, frame.view_in_world);
+    receiver.depth_m = 0.0;
+    return receiver;
+}
+#endif
+
 // What the maps say of a fragment. The tangent frame is orthonormal; the eye is above the horizon.
 struct SurfaceFragment {
     vec3 base_color;           // linear, [0, 1]

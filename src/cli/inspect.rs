@@ -78,6 +78,9 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     for Attachment { name, format, samples, .. } in &plan.attachments {
         text += &format!("  {name} {format:?}, {samples} samples\n");
     }
+    for (name, format) in plan.shadows.images() {
+        text += &format!("  {name} {format:?}, {:?} texels\n", plan.shadows.size());
+    }
     text += "pipelines\n";
     for spec in &plan.compute_pipelines {
         text += &format!("  {} ({})\n", spec.shader, constants_text(&spec.constants));
@@ -116,6 +119,10 @@ fn draws(plan: &Plan, pass: Pass) -> usize {
         Pass::Deform => plan.deforms.len(),
         Pass::Sway => plan.sways.len(),
         Pass::Guide => plan.guide.len(),
+        Pass::Shadow => plan.shadows.opaque.len(),
+        Pass::ShadowFront => plan.shadows.front.len(),
+        Pass::ShadowBack => plan.shadows.back.len(),
+        Pass::ShadowLayers => plan.shadows.layers.len(),
         Pass::Opaque => plan.opaque.len(),
         Pass::Fur => plan.fur.len(),
         Pass::Transparent => plan.transparent.len(),
@@ -150,5 +157,6 @@ fn format(texture: &TextureUse) -> &'static str {
 /// What the frame draws into, and the picture.
 fn target_bytes(plan: &Plan, options: &FrameOptions) -> u64 {
     let picture = format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0);
-    plan.attachments.iter().map(|attachment| attachment.bytes(options.size)).sum::<u64>() + picture
+    let shadows: u64 = plan.shadows.images().iter().map(|(_, format)| plan.shadows.bytes(*format)).sum();
+    plan.attachments.iter().map(|attachment| attachment.bytes(options.size)).sum::<u64>() + shadows + picture
 }

@@ -12,7 +12,8 @@ use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Asset, Environment, LoadOptions};
 use vair::material::Look;
 use vair::render::{
-    Aovs, Background, EnvironmentQuality, FrameOptions, HdrFormat, ScreenOcclusion, Shells, Tonemap, Transparency,
+    Aovs, Background, EnvironmentQuality, FrameOptions, HdrFormat, ScreenOcclusion, Shadows, Shells, Tonemap,
+    Transparency,
 };
 use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
 
@@ -97,6 +98,9 @@ pub struct SceneArguments {
     /// Exposure in stops.
     #[arg(long, value_name = "EV", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
     exposure: f32,
+    /// Whether lights cast shadows.
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    shadows: Switch,
     /// Light from all around: an equirectangular .hdr or .exr picture; without one, the embedded studio.
     #[arg(long, value_name = "FILE.hdr/.exr")]
     env: Option<PathBuf>,
@@ -129,6 +133,12 @@ enum AovChoice {
 enum HdrChoice {
     Rgba16f,
     B10g11r11,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    On,
+    Off,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -224,6 +234,7 @@ impl SceneArguments {
             surroundings: self.surroundings()?,
             environment_quality: EnvironmentQuality::default(),
             lights: Vec::new(),
+            shadows: Shadows { are_cast: self.shadows == Switch::On, ..Shadows::default() },
             background: self.background,
             hdr_format: match self.hdr_format {
                 HdrChoice::Rgba16f => HdrFormat::Rgba16f,

@@ -66,6 +66,16 @@ pub struct BlendState {
 }
 
 impl BlendState {
+    /// Colours and alphas add up.
+    pub const SUM: Self = Self {
+        src_color: vk::BlendFactor::ONE,
+        dst_color: vk::BlendFactor::ONE,
+        color_op: vk::BlendOp::ADD,
+        src_alpha: vk::BlendFactor::ONE,
+        dst_alpha: vk::BlendFactor::ONE,
+        alpha_op: vk::BlendOp::ADD,
+    };
+
     /// Over, for colour already multiplied by alpha (Porter and Duff 1984, "Compositing digital images").
     pub const PREMULTIPLIED_OVER: Self = Self {
         src_color: vk::BlendFactor::ONE,

@@ -5,6 +5,7 @@
 //! does the depth test itself, before the coverage is known, as early depth tests do; `host/count.glsl` says how.
 
 use super::frame_data::{FrameData, LightMaps};
+use super::options::Shadows;
 use super::pass::{Frame, draws};
 use super::plan::Pass;
 use super::{Aovs, FrameOptions, PipelineSpec, RenderError, Renderer, Shot, frame};
@@ -68,8 +69,9 @@ impl Renderer {
                 "counting needs fragment shaders that write memory, and room for every sample's depth".to_owned();
             return Err(GpuError::Unsupported { name: "fragment counts".to_owned(), problem }.into());
         }
-        // Shading alone is counted.
-        let options = &FrameOptions { aovs: Aovs::default(), screen_occlusion: None, ..options.clone() };
+        // Shading alone is counted; shadows cast no fragments of the picture.
+        let shadows = Shadows { are_cast: false, ..options.shadows };
+        let options = &FrameOptions { aovs: Aovs::default(), screen_occlusion: None, shadows, ..options.clone() };
         let mut shot = Shot::new(scene, options)?;
         shot.plan.guide.clear();
         for spec in &mut shot.plan.pipelines {
@@ -78,7 +80,16 @@ impl Renderer {
         let motion = self.prepare_motion(scene, &shot, options)?;
         let data = FrameData::new(&self.gpu, &self.resources, LightMaps::default(), scene, &shot, options.size)?;
         let resources = &self.resources;
-        let frame = Frame { scene, shot: &shot, options, resources, motion: &motion, data: &data, composition: None };
+        let frame = Frame {
+            scene,
+            shot: &shot,
+            options,
+            resources,
+            motion: &motion,
+            data: &data,
+            atlas: None,
+            composition: None,
+        };
         let lists = frame::draw_lists(&frame);
         let counters = self.counters(&shot, options, lists.len())?;
         let target = self.gpu.image(&ImageDesc {
@@ -99,7 +110,7 @@ impl Renderer {
                 RenderPassDesc { name: pass.name(), size: options.size, color: &color, depth: None, sampled: &[] };
             encoder.render_pass(&desc, |render_pass| {
                 render_pass.bind(3, &counter.group);
-                draws::record(render_pass, list, &frame);
+                draws::record(render_pass, list, &frame, 0);
             });
         }
         for counter in &counters {

@@ -2,10 +2,10 @@
 
 use super::options::Background;
 use super::pass::screen_occlusion::Occluders;
-use super::pass::{Frame, Moving, deform, draws, guide, order, screen_occlusion, sway, tonemap, transparency};
+use super::pass::{Frame, Moving, deform, draws, guide, order, screen_occlusion, shadow, sway, tonemap, transparency};
 use super::plan::{Draw, Pass};
 use super::targets::Targets;
-use crate::gpu::{ColorTarget, DepthTarget, Encoder, Load, RenderPassDesc};
+use crate::gpu::{ColorTarget, DepthTarget, Encoder, Image, Load, RenderPassDesc};
 use std::borrow::Cow;
 
 /// Records all passes of `frame`.
@@ -22,6 +22,9 @@ pub fn record(
     }
     if let Some(occluders) = occluders {
         screen_occlusion::record(encoder, frame, occluders);
+    }
+    if let Some(atlas) = frame.atlas {
+        shadow::record(encoder, frame, atlas);
     }
     if let Some(composition) = frame.composition {
         transparency::clear(encoder, composition);
@@ -75,13 +78,14 @@ fn record_draws(encoder: &mut Encoder, frame: &Frame, targets: &Targets, pass: P
         load: if is_first { Load::Clear([0.0; 4]) } else { Load::Keep },
         store: !is_last || frame.composition.is_some(),
     });
-    let sampled: Vec<_> = targets.occlusion.iter().map(|occlusion| &occlusion.visibility).collect();
+    let occlusion = targets.occlusion.iter().map(|occlusion| &occlusion.visibility);
+    let sampled: Vec<&Image> = occlusion.chain(frame.atlas.iter().flat_map(|atlas| &atlas.images)).collect();
     let desc = RenderPassDesc { name: pass.name(), size: frame.options.size, color: &color, depth, sampled: &sampled };
     encoder.render_pass(&desc, |pass| {
         if let Some(composition) = frame.composition {
             pass.bind(transparency::LIST_SET, composition.appending());
         }
-        draws::record(pass, list, frame);
+        draws::record(pass, list, frame, 0);
     });
 }
 

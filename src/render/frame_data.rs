@@ -4,14 +4,15 @@ use super::Shot;
 use super::environment::{EnvironmentMaps, HARMONICS, LobeTable};
 use super::map::fur_maps;
 use super::material::fur_uniforms;
-use super::pipeline::PipelineSpec;
+use super::pipeline::{PipelineSpec, Target};
 use super::plan::{Draw, DrawKind, Plan};
 use super::previous::Previous;
 use super::resources::Resources;
+use super::shadow::{ShadowAtlas, ShadowPlan};
 use crate::gpu::{BindGroup, Buffer, Gpu, GpuError, Image, Memory, Resource};
 use crate::material::{ForceSpace, Fur, Material};
 use crate::math::normal_matrix;
-use crate::scene::{Camera, Instance, Light, LightKind, Lighting, Pose, Scene, Surroundings, joint_matrices};
+use crate::scene::{Camera, Instance, LightKind, Lighting, Pose, Scene, ShadowMap, Surroundings, joint_matrices};
 use crate::shader::layout::{FrameUniforms, LightSource, ObjectUniforms, PreviousFrame};
 use ash::vk;
 use bytemuck::NoUninit;
@@ -33,19 +34,23 @@ pub struct LightMaps<'a> {
     pub lobes: Option<&'a LobeTable>,
     /// Screen-space occlusion.
     pub occlusion: Option<&'a Image>,
+    /// Shadow maps.
+    pub atlas: Option<&'a ShadowAtlas>,
 }
 
 /// What one frame reads and no other.
 pub struct FrameData {
     /// Linear RGB mean of the environment's radiance; 0 where nothing is lit.
     pub mean_radiance: Vec3,
-    frame: Buffer,
+    /// What a view shares: the camera's, then each shadow map's.
+    views: Vec<Buffer>,
     lights: Option<Buffer>,
+    shadows: Option<Buffer>,
     objects: Buffer,
     /// Camera and places of the previous frame, where motion is asked for.
     previous: Option<[Buffer; 2]>,
-    /// Bind groups of all objects by set and names: most pipelines have the same.
-    shared_groups: HashMap<(u32, BTreeSet<&'static str>), BindGroup>,
+    /// Bind groups of all objects by view, set and names: most pipelines have the same.
+    shared_groups: HashMap<(usize, u32, BTreeSet<&'static str>), BindGroup>,
     /// Coat bind groups by (instance, pipeline).
     pub coat_groups: HashMap<(usize, usize), BindGroup>,
 }
@@ -64,16 +69,26 @@ impl FrameData {
         size: [u32; 2],
     ) -> Result<Self, GpuError> {
         let Shot { plan, camera, lighting, .. } = shot;
-        let lights: Vec<LightSource> = lighting.lights.iter().map(light_source).collect();
-        let frame = frame_uniforms(camera, lighting, maps.environment);
+        let lights: Vec<LightSource> =
+            plan.lights.lights.iter().map(|&light| light_source(light, lighting, &plan.shadows)).collect();
+        let eye = frame_uniforms(camera, lighting, maps.environment);
+        let views = std::iter::once(eye).chain(plan.shadows.maps.iter().map(light_view));
         let objects: Vec<ObjectUniforms> =
             plan.instances.iter().map(|instance| object_uniforms(scene, instance)).collect();
         let mean_radiance = maps.environment.map_or(Vec3::ZERO, EnvironmentMaps::mean_radiance);
         let mut data = Self {
             mean_radiance: mean_radiance * lighting.surroundings.strength,
-            frame: filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[frame])?,
+            views: views
+                .map(|view| filled(gpu, "frame", vk::BufferUsageFlags::UNIFORM_BUFFER, &[view]))
+                .collect::<Result<_, _>>()?,
             lights: if plan.is_lit() {
                 Some(filled(gpu, "lights", vk::BufferUsageFlags::STORAGE_BUFFER, &lights)?)
+            } else {
+                None
+            },
+            shadows: if plan.lit.is_occluded() {
+                let sources = plan.shadows.sources();
+                Some(filled(gpu, "shadows", vk::BufferUsageFlags::STORAGE_BUFFER, &sources)?)
             } else {
                 None
             },
@@ -86,15 +101,14 @@ impl FrameData {
             coat_groups: HashMap::new(),
         };
         data.bind_shared(gpu, resources, maps, plan)?;
-        for draw in plan.fur.iter().chain(&plan.transparent).chain(&plan.guide) {
+        for draw in plan.fur.iter().chain(&plan.transparent).chain(&plan.guide).chain(plan.shadows.draws()) {
             data.bind_coat(gpu, resources, scene, shot, draw)?;
         }
         Ok(data)
     }
 
     fn bind_shared(&mut self, gpu: &Gpu, resources: &Resources, maps: LightMaps, plan: &Plan) -> Result<(), GpuError> {
-        let mut offered =
-            vec![("FrameBlock", Resource::Buffer(&self.frame)), ("ObjectList", Resource::Buffer(&self.objects))];
+        let mut offered = vec![("ObjectList", Resource::Buffer(&self.objects))];
         if let Some(environment) = maps.environment {
             offered.push(("environment_map", Resource::Texture(&environment.map)));
             offered.push(("environment_sampler", Resource::Sampler(&environment.sampler)));
@@ -111,19 +125,33 @@ impl FrameData {
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));
         }
+        if let Some(shadows) = &self.shadows {
+            offered.push(("ShadowList", Resource::Buffer(shadows)));
+        }
+        if let Some(atlas) = maps.atlas {
+            offered.extend(atlas.named().map(|(name, image)| (name, Resource::Texture(image))));
+            offered.push(("shadow_sampler", Resource::Sampler(&atlas.sampler)));
+        }
         for spec in &plan.pipelines {
-            for (set, name) in [(FRAME_SET, "frame"), (OBJECT_SET, "objects")] {
-                if let Entry::Vacant(new) = self.shared_groups.entry((set, spec.bindings_of(set))) {
-                    new.insert(gpu.bind_group(resources.pipeline(spec), set, name, &offered)?);
+            // The camera sees what has a colour, lights see what casts shadows.
+            let views = if spec.target == Target::Color { 0..1 } else { 1..self.views.len() };
+            for view in views {
+                let mut offered = offered.clone();
+                offered.push(("FrameBlock", Resource::Buffer(&self.views[view])));
+                for (set, name) in [(FRAME_SET, "frame"), (OBJECT_SET, "objects")] {
+                    if let Entry::Vacant(new) = self.shared_groups.entry((view, set, spec.bindings_of(set))) {
+                        new.insert(gpu.bind_group(resources.pipeline(spec), set, name, &offered)?);
+                    }
                 }
             }
         }
         Ok(())
     }
 
-    /// The bind group of a set, [`FRAME_SET`] or [`OBJECT_SET`], that all objects share.
-    pub fn shared_group(&self, set: u32, spec: &PipelineSpec) -> &BindGroup {
-        &self.shared_groups[&(set, spec.bindings_of(set))]
+    /// The bind group of a set, [`FRAME_SET`] or [`OBJECT_SET`], that all objects in a view share: 0 is the camera's,
+    /// others are those of shadow maps from 1.
+    pub fn shared_group(&self, view: usize, set: u32, spec: &PipelineSpec) -> &BindGroup {
+        &self.shared_groups[&(view, set, spec.bindings_of(set))]
     }
 
     fn bind_coat(
@@ -188,13 +216,23 @@ fn frame_uniforms(camera: &Camera, lighting: &Lighting, environment: Option<&Env
     FrameUniforms {
         clip_from_world: camera.clip_from_world().to_cols_array_2d(),
         eye_in_world: camera.eye_in_world().to_array(),
-        light_count: lighting.lights.len() as u32,
         view_in_world: camera.backwards_in_world().to_array(),
         orthographic: if camera.is_orthographic { 1.0 } else { 0.0 },
         environment_scale: environment.map_or(Vec3::ZERO, |maps| maps.scale * strength).to_array(),
         environment_levels: environment.map_or(0, |maps| maps.last_level) as f32,
         environment_turn: [turn.cos(), turn.sin()],
         environment_harmonics,
+        ..Default::default()
+    }
+}
+
+/// What a light sees, without light.
+fn light_view(map: &ShadowMap) -> FrameUniforms {
+    FrameUniforms {
+        clip_from_world: map.clip_from_world.to_cols_array_2d(),
+        eye_in_world: map.eye_in_world.to_array(),
+        view_in_world: map.direction_to_light.to_array(),
+        orthographic: if map.is_orthographic { 1.0 } else { 0.0 },
         ..Default::default()
     }
 }
@@ -223,7 +261,9 @@ fn object_uniforms(scene: &Scene, instance: &Instance) -> ObjectUniforms {
     }
 }
 
-fn light_source(light: &Light) -> LightSource {
+fn light_source(index: usize, lighting: &Lighting, shadows: &ShadowPlan) -> LightSource {
+    let light = &lighting.lights[index];
+    let (first_shadow, shadow_count) = shadows.maps_of(index);
     let (kind, spot_scale, spot_offset) = match light.kind {
         LightKind::Directional => (0, 0.0, 0.0),
         LightKind::Point => (1, 0.0, 0.0),
@@ -237,6 +277,8 @@ fn light_source(light: &Light) -> LightSource {
         intensity: light.intensity.to_array(),
         spot_scale,
         spot_offset,
+        first_shadow,
+        shadow_count,
         ..Default::default()
     }
 }

@@ -25,7 +25,7 @@ pub struct LeftOut {
 pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftOut> {
     let mut list = List::default();
     for pass in Pass::ALL.into_iter().filter(|pass| !plan.passes.contains(pass)) {
-        list.add(format!("{} pass", pass.name()), reason_of_pass(plan, pass));
+        list.add(format!("{} pass", pass.name()), reason_of_pass(plan, pass, options));
     }
     if !plan.pipelines.iter().any(|spec| family(&spec.fragment) == "fur") {
         list.add("fur pipeline", "no triangles have a material with fur");
@@ -38,7 +38,11 @@ pub fn left_out(plan: &Plan, scene: &Scene, options: &FrameOptions) -> Vec<LeftO
     for left in most.iter().filter(|most| !plan.attachments.iter().any(|attachment| attachment.name == most.name)) {
         list.add(format!("attachment {}", left.name), reason_of_attachment(left.name));
     }
-    list.bindings(plan, scene);
+    if !plan.shadows.without.is_empty() {
+        let lights = plan.shadows.without.len();
+        list.add(format!("shadows of {lights} lights"), "the maps are taken, or it is a point light amid the scene");
+    }
+    list.bindings(plan, scene, options);
     list.streams(plan, scene);
     let used: BTreeSet<usize> = plan.textures.iter().map(|texture| texture.image).collect();
     let images = scene.asset().images.len();
@@ -59,18 +63,31 @@ fn reason_of_attachment(name: &str) -> &'static str {
     }
 }
 
-fn reason_of_pass(plan: &Plan, pass: Pass) -> &'static str {
+fn reason_of_pass(plan: &Plan, pass: Pass, options: &FrameOptions) -> &'static str {
     match pass {
         Pass::Deform => "nothing in the scene is skinned or morphed",
         Pass::Sway => "no animation moves a coat that has inertia",
         Pass::Guide => reason_of_attachment("guide"),
         Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur => reason_of_attachment("screen occlusion"),
+        Pass::Shadow | Pass::ShadowFront | Pass::ShadowBack | Pass::ShadowLayers => match () {
+            () if plan.lit.shadows => "nothing lets light through in part",
+            () => reason_of_no_shadows(plan, options),
+        },
         Pass::Fur if plan.has_fur() => "every coat blends",
         Pass::Fur => "no triangles have a material with fur",
         Pass::Transparent => "no material blends",
         Pass::Transparency if plan.transparent.is_empty() => "no material blends",
         Pass::Transparency => "what blends is sorted by objects",
         Pass::Opaque | Pass::Tonemap => "not in this plan",
+    }
+}
+
+fn reason_of_no_shadows(plan: &Plan, options: &FrameOptions) -> &'static str {
+    match () {
+        () if !options.shadows.are_cast => "shadows were not asked for",
+        () if !plan.is_lit() => "nothing that is drawn is lit",
+        () if plan.lights.lights.is_empty() => "no light reaches anything",
+        () => "no light that reaches anything can have a map",
     }
 }
 
@@ -93,7 +110,7 @@ impl List {
     }
 
     /// Descriptors that some permutation of the shaders in use has, and none of the permutations in use.
-    fn bindings(&mut self, plan: &Plan, scene: &Scene) {
+    fn bindings(&mut self, plan: &Plan, scene: &Scene, options: &FrameOptions) {
         let specs = plan.pipelines.iter().flat_map(|spec| [&spec.vertex, &spec.fragment]);
         let used: Vec<&Shader> =
             specs.chain(plan.compute_pipelines.iter().map(|spec| &spec.shader)).map(|name| shader(name)).collect();
@@ -113,7 +130,7 @@ impl List {
             let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
             // A map stands for its sampler, too.
             for (_, _, binding) in all.difference(&bound).filter(|(.., name)| !name.ends_with("_sampler")) {
-                by_reason.entry(reason_of_binding(plan, scene, name, binding)).or_default().push(binding);
+                by_reason.entry(reason_of_binding(plan, scene, name, binding, options)).or_default().push(binding);
             }
             for (why, bindings) in by_reason {
                 self.add(format!("{name} bindings {}", bindings.join(", ")), why);
@@ -121,7 +138,7 @@ impl List {
         }
         // What other renderers bind to light a scene. It is left out as long as no shader in use declares it.
         for (what, word, why) in [
-            ("shadow maps", "shadow", "lights cast no shadows yet"),
+            ("shadow maps", "shadow", reason_of_no_shadows(plan, options)),
             ("look-up tables", "table", "the standard material's albedo is a closed fit"),
             ("environment maps", "environment", "nothing is lit"),
         ] {
@@ -148,8 +165,9 @@ impl List {
     }
 }
 
-fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str) -> &'static str {
+fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str, options: &FrameOptions) -> &'static str {
     match (binding.strip_suffix("_map"), binding) {
+        _ if binding.to_lowercase().starts_with("shadow") => reason_of_no_shadows(plan, options),
         (Some(stem), _) if has_map(plan, scene, family, stem) => {
             "the mesh has no coordinates for the map, or nothing lights it"
         }

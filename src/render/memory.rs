@@ -68,6 +68,9 @@ impl Plan {
         for attachment in &self.attachments {
             add(attachment.name.to_owned(), attachment.bytes(options.size));
         }
+        for &(name, format) in self.shadows.images() {
+            add(name.to_owned(), self.shadows.bytes(format));
+        }
         if self.composition.is_some() {
             for (name, bytes) in Lists::first_bytes(options.size) {
                 add(name.to_owned(), bytes);

@@ -27,6 +27,7 @@ mod plan;
 mod previous;
 mod report;
 mod resources;
+mod shadow;
 mod stream;
 mod sway;
 mod table;
@@ -45,22 +46,23 @@ pub use map::StandIn;
 pub use memory::PICTURE_FORMAT;
 pub use occlusion::{MAX_OCCLUSION_SAMPLES, ScreenOcclusion};
 pub use options::{
-    Background, FrameOptions, HdrFormat, MAX_LAYERS, ShellAlpha, ShellOrder, ShellSampling, ShellSubmission, Shells,
-    Tonemap, Transparency,
+    Background, FrameOptions, HdrFormat, MAX_LAYERS, SHADOW_FILTERS_PX, SHADOW_RESOLUTIONS_PX, Shadows, ShellAlpha,
+    ShellOrder, ShellSampling, ShellSubmission, Shells, Tonemap, Transparency,
 };
 pub use pass::transparency::ListUse;
 pub use picture::{Picture, PictureFormat};
-pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec};
+pub use pipeline::{ComputeSpec, DepthUse, PipelineSpec, Target};
 pub use plan::{Deform, Draw, DrawKind, Pass, Plan, SurfaceUse, Sway, TextureUse};
 pub use previous::Previous;
 pub use report::{CoatReport, CpuPhases, FrameReport};
+pub use shadow::ShadowPlan;
 pub use stream::{Moment, Stream};
 pub use table::Table;
 pub use targets::Attachment;
 
 use crate::asset::Asset;
 use crate::gpu::{Encoder, Gpu, GpuError, GpuOptions, Image, ImageDesc};
-use crate::scene::{self, Camera, Lighting, Pose, Scene, SceneError};
+use crate::scene::{self, Camera, LightLists, Lighting, Pose, Scene, SceneError, ShadowMaps};
 use ash::vk;
 use environment::{BackdropImage, EnvironmentMaps, LobeTable};
 use frame_data::{FrameData, LightMaps};
@@ -72,6 +74,7 @@ use pass::tonemap::Display;
 use pass::transparency::{Composition, Lists};
 use pass::{Frame, Moving};
 use resources::Resources;
+use shadow::ShadowAtlas;
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -157,11 +160,21 @@ impl Shot {
         let mut lights = scene::lights(asset, scene_index, &pose);
         lights.extend(options.lights.iter().cloned());
         let lighting = Lighting { lights, surroundings: options.surroundings.clone() };
+        let camera = scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?;
+        let ball = scene::ball(&shown);
+        let reach = LightLists::new(&lighting.lights, instances.iter().map(|instance| scene.ball(instance, ball)));
+        let maps = match ball.filter(|_| options.shadows.are_cast) {
+            Some(ball) => {
+                let casts = |light| reach.is_used(light);
+                scene::shadow_maps(&lighting.lights, casts, ball, &camera, options.shadows.resolution_px)
+            }
+            None => ShadowMaps::default(),
+        };
         Ok(Self {
-            camera: scene::camera(asset, scene_index, &pose, &options.camera, aspect, &shown)?,
+            camera,
             previous: Previous::new(scene, &instances, options)?,
             radius_m: shown.bounds().sphere().radius,
-            plan: Plan::new(scene, instances, &lighting, options),
+            plan: Plan::new(scene, instances, reach, maps, options),
             lighting,
             pose,
         })
@@ -200,6 +213,8 @@ pub struct Renderer {
     scene: Option<u64>,
     /// Light from all around, of the last frame.
     environment: Option<EnvironmentMaps>,
+    /// Shadow maps, of the last frame.
+    atlas: Option<ShadowAtlas>,
     lobes: Option<LobeTable>,
     /// What stands behind the scene.
     backdrop: Option<BackdropImage>,
@@ -231,6 +246,7 @@ impl Renderer {
             picture: None,
             scene: None,
             environment: None,
+            atlas: None,
             lobes: None,
             backdrop: None,
             sway: SwayMemory::default(),
@@ -397,6 +413,7 @@ impl Renderer {
             self.resources.make_pipeline(spec)?;
         }
         self.prepare_environment(&shot.plan, options)?;
+        self.prepare_atlas(&shot.plan.shadows)?;
         let occlusion = self.targets.as_ref().and_then(|targets| targets.occlusion.as_ref());
         if occlusion.is_some() {
             for spec in PipelineSpec::screen_occlusion() {
@@ -407,9 +424,22 @@ impl Renderer {
             environment: self.environment.as_ref(),
             lobes: self.lobes.as_ref(),
             occlusion: occlusion.map(|targets| &targets.visibility),
+            atlas: self.atlas.as_ref(),
         };
         let data = FrameData::new(&self.gpu, &self.resources, maps, scene, shot, options.size)?;
         Ok(Prepared { motion, data, tonemap })
+    }
+
+    /// Makes the images of the shadow maps, if the last frame had others.
+    fn prepare_atlas(&mut self, plan: &ShadowPlan) -> Result<(), RenderError> {
+        if !self.atlas.as_ref().is_some_and(|atlas| atlas.fits(plan)) {
+            // The old ones go first: two need not fit at once.
+            self.atlas = None;
+            if plan.is_bound {
+                self.atlas = Some(ShadowAtlas::new(&self.gpu, plan)?);
+            }
+        }
+        Ok(())
     }
 
     /// Makes what the environment is on the device, if the last frame had another one; the old one goes first, as two
@@ -459,8 +489,8 @@ impl Renderer {
         let display =
             Display::new(&self.gpu, resources.pipeline(&tonemap), targets.hdr(), self.backdrop.as_ref(), target)?;
         let composition = Composition::new(&self.gpu, resources, &shot.plan, targets, self.lists.as_ref())?;
-        let composition = composition.as_ref();
-        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, composition };
+        let (composition, atlas) = (composition.as_ref(), self.atlas.as_ref());
+        let frame = Frame { scene, shot, options, resources, motion: &motion, data: &data, atlas, composition };
         let occluders = match (&targets.guide, &targets.occlusion) {
             (Some(guide), Some(occlusion)) => Some(Occluders::new(&self.gpu, resources, guide, occlusion)?),
             _ => None,

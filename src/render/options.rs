@@ -5,6 +5,7 @@ use crate::asset::{Asset, Primitive, Topology};
 use crate::material::{Fur, Material};
 use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
 use glam::Vec3;
+use std::ops::RangeInclusive;
 
 /// Most shells of a coat.
 pub const MAX_LAYERS: u32 = 256;
@@ -33,6 +34,8 @@ pub struct FrameOptions {
     pub surroundings: Surroundings,
     /// Lights beside those of the file, in world space.
     pub lights: Vec<Light>,
+    /// Shadows of lights.
+    pub shadows: Shadows,
     /// How finely the surroundings are prepared.
     pub environment_quality: EnvironmentQuality,
     /// What is shown where nothing was drawn.
@@ -74,6 +77,7 @@ impl Default for FrameOptions {
             exposure_ev: 0.0,
             surroundings: Surroundings::default(),
             lights: Vec::new(),
+            shadows: Shadows::default(),
             environment_quality: EnvironmentQuality::default(),
             background: Background::Environment,
             hdr_format: HdrFormat::Rgba16f,
@@ -146,6 +150,18 @@ impl FrameOptions {
         if self.lights.iter().any(|light| !light.is_finite()) {
             return wrong("lights", "places, directions and intensities must be finite".to_owned());
         }
+        let Shadows { resolution_px, filter_px, .. } = self.shadows;
+        if !SHADOW_RESOLUTIONS_PX.contains(&resolution_px) || !SHADOW_FILTERS_PX.contains(&filter_px) {
+            let (maps, filters) = (SHADOW_RESOLUTIONS_PX, SHADOW_FILTERS_PX);
+            let problem = format!(
+                "maps have {} to {} texels a side, filters a radius of {} to {}",
+                maps.start(),
+                maps.end(),
+                filters.start(),
+                filters.end()
+            );
+            return wrong("shadows", problem);
+        }
         let times_s = [self.time_s, self.previous_time_s.unwrap_or_default()];
         if !times_s.iter().all(|time_s| time_s.is_finite()) || !self.exposure_ev.is_finite() {
             return wrong("time and exposure", "must be finite numbers".to_owned());
@@ -193,6 +209,30 @@ impl FrameOptions {
             }
         }
         Ok(())
+    }
+}
+
+/// Sides of a shadow map, texels.
+pub const SHADOW_RESOLUTIONS_PX: RangeInclusive<u32> = 64..=4096;
+/// Radii of the filter of shadows, texels.
+pub const SHADOW_FILTERS_PX: RangeInclusive<u32> = 1..=3;
+
+/// Shadows of lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Shadows {
+    /// Lights cast shadows where something can receive them.
+    pub are_cast: bool,
+    /// Texels of a map's sides, in [`SHADOW_RESOLUTIONS_PX`]. A map takes 4 bytes a texel, 28 where something lets light
+    /// through in part.
+    pub resolution_px: u32,
+    /// Radius of the filter, texels of the map, in [`SHADOW_FILTERS_PX`]. A radius of r reads 4 r^2 texels by r^2 fetches
+    /// a lit fragment and light.
+    pub filter_px: u32,
+}
+
+impl Default for Shadows {
+    fn default() -> Self {
+        Self { are_cast: true, resolution_px: 1024, filter_px: 2 }
     }
 }
 

@@ -21,6 +21,11 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Display colour alone: `width * height * 4` sRGB-coded bytes, rows from the top.
+    pub fn new(size: [u32; 2], rgba: Vec<u8>) -> Self {
+        Self { size, rgba, radiance: Vec::new(), behind: Behind::Transparent, aovs: AovPixels::default() }
+    }
+
     /// The display colour of a pixel.
     ///
     /// # Panics
@@ -95,13 +100,7 @@ mod tests {
     use super::*;
 
     fn picture() -> Picture {
-        Picture {
-            size: [2, 1],
-            rgba: vec![1, 2, 3, 255, 4, 5, 6, 255],
-            radiance: Vec::new(),
-            behind: Behind::Transparent,
-            aovs: AovPixels::default(),
-        }
+        Picture::new([2, 1], vec![1, 2, 3, 255, 4, 5, 6, 255])
     }
 
     #[test]

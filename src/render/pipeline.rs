@@ -5,6 +5,7 @@ use super::cloth::ClothShader;
 use super::lit::Lit;
 use super::map::{Map, fur_maps, surface_maps};
 use super::options::{FrameOptions, HdrFormat, ShellOrder, Shells, Tonemap, Transparency};
+use super::shadow::LAYER_FORMAT;
 use super::table::Table;
 use crate::asset::{Primitive, Topology};
 use crate::gpu::{BlendState, ColorState, DepthState, Gpu, GpuError, GraphicsDesc, Pipeline};
@@ -39,6 +40,19 @@ pub enum DepthUse {
     TestAndWrite,
 }
 
+/// What a pipeline draws into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// A colour.
+    Color,
+    /// The nearest depth of a shadow map.
+    ShadowFront,
+    /// The farthest.
+    ShadowBack,
+    /// Two colours that add up: optical depths between the two.
+    ShadowLayers,
+}
+
 /// A graphics pipeline.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct PipelineSpec {
@@ -50,13 +64,15 @@ pub struct PipelineSpec {
     pub constants: Vec<(&'static str, u32)>,
     /// Points, lines or triangles.
     pub topology: Topology,
+    /// What it draws into.
+    pub target: Target,
     /// Premultiplied over-blending.
     pub blend: bool,
     /// Use of depth.
     pub depth: DepthUse,
     /// Samples a pixel.
     pub samples: u32,
-    /// Format of the colour target.
+    /// Format of the colour targets, if there are any.
     pub color_format: vk::Format,
 }
 
@@ -163,6 +179,7 @@ impl PipelineSpec {
             fragment: permutation(file, &fragment_defines),
             constants,
             topology: primitive.topology,
+            target: Target::Color,
             blend,
             depth: if blend { DepthUse::Test } else { DepthUse::TestAndWrite },
             samples: options.msaa,
@@ -206,6 +223,7 @@ impl PipelineSpec {
             ),
             constants,
             topology: Topology::Triangles,
+            target: Target::Color,
             blend,
             depth: if blend { DepthUse::Test } else { DepthUse::TestAndWrite },
             samples: options.msaa,
@@ -226,8 +244,7 @@ impl PipelineSpec {
             if file == "fur.frag" { (file, &["MAPS"]) } else { ("standard.frag", &["UV", "COLOR"]) };
         let kept = kept.iter().map(|define| (*define, defines.split('+').any(|given| given == *define)));
         let fragment = permutation(file, &[("COUNT", true)].into_iter().chain(kept).collect::<Vec<_>>());
-        let stages = [shader(&self.vertex), shader(&fragment)];
-        let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
+        let is_known = is_known_by([&self.vertex, &fragment]);
         // What blends leaves no depth behind, whatever opacity does: gauze blends in every mode.
         let of_blended = |(name, value): (&'static str, u32)| match name {
             "ALPHA_MODE" if self.blend => (name, alpha_constant(AlphaMode::Blend)),
@@ -277,11 +294,56 @@ impl PipelineSpec {
             fragment: fragment.to_owned(),
             constants: Vec::new(),
             topology: Topology::Triangles,
+            target: Target::Color,
             blend: false,
             depth: DepthUse::None,
             samples: 1,
             color_format: OCCLUSION_FORMAT,
         })
+    }
+
+    /// Whether what it draws lets light through in part: coats, gauze, and what blends by its alpha. What transmits light
+    /// otherwise casts the shadow of something opaque.
+    pub fn casts_in_part(&self) -> bool {
+        let has_alpha = self.constants.contains(&("ALPHA_MODE", alpha_constant(AlphaMode::Blend)));
+        has_alpha || ["fur.frag", "gauze.frag"].iter().any(|file| self.fragment.starts_with(file))
+    }
+
+    /// The pipeline by which what this one draws casts its shadow into `target`. It keeps what decides where it lets light
+    /// through, and reads nothing else.
+    pub fn casting(&self, target: Target) -> Self {
+        let (file, defines) = self.fragment.split_once('+').unwrap_or((&self.fragment, ""));
+        let is_opaque = self.constants.contains(&("ALPHA_MODE", alpha_constant(AlphaMode::Opaque)));
+        let has_map = self.constants.contains(&("HAS_BASE_COLOR_MAP", 1));
+        let layers = ("LAYERS", target == Target::ShadowLayers);
+        let given = |define: &'static str| (define, defines.split('+').any(|given| given == define));
+        let plain = [("UV", has_map && !is_opaque), ("COLOR", given("COLOR").1 && !is_opaque)];
+        let (vertex, fragment) = match file {
+            "fur.frag" => (self.vertex.clone(), permutation("fur_shadow.frag", &[given("MAPS"), layers])),
+            "gauze.frag" => {
+                let defines = [given("UV"), given("TANGENT"), given("MAPS"), given("COLOR"), layers];
+                (self.vertex.clone(), permutation("gauze_shadow.frag", &defines))
+            }
+            _ => {
+                let [uv, color] = plain;
+                let vertex = permutation("standard.vert", &[("UNLIT", true), uv, color]);
+                (vertex, permutation("shadow.frag", &[uv, color, layers]))
+            }
+        };
+        let is_known = is_known_by([&vertex, &fragment]);
+        // A texel of a map is one sample.
+        let of_texel = |(name, value): (&'static str, u32)| (name, if name == "SAMPLE_COUNT" { 1 } else { value });
+        Self {
+            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().map(of_texel).collect(),
+            vertex,
+            fragment,
+            topology: self.topology,
+            target,
+            blend: false,
+            depth: if layers.1 { DepthUse::None } else { DepthUse::TestAndWrite },
+            samples: 1,
+            color_format: if layers.1 { LAYER_FORMAT } else { vk::Format::UNDEFINED },
+        }
     }
 
     /// The pipeline that composes the lists of what blends over the opaque picture.
@@ -291,6 +353,7 @@ impl PipelineSpec {
             fragment: permutation("transparency.frag", &[("MULTISAMPLE", options.msaa > 1)]),
             constants: vec![("WEIGHTED", u32::from(options.transparency == Transparency::Weighted))],
             topology: Topology::Triangles,
+            target: Target::Color,
             blend: false,
             depth: DepthUse::None,
             samples: 1,
@@ -314,6 +377,7 @@ impl PipelineSpec {
                 ("HAS_ALPHA", u32::from(hdr_format == HdrFormat::Rgba16f)),
             ],
             topology: Topology::Triangles,
+            target: Target::Color,
             blend: false,
             depth: DepthUse::None,
             samples: 1,
@@ -362,6 +426,11 @@ impl PipelineSpec {
     /// # Errors
     /// Those of [`Gpu::graphics_pipeline`].
     pub fn create(&self, gpu: &Gpu) -> Result<Pipeline, GpuError> {
+        let blend = match self.target {
+            Target::ShadowLayers => Some(BlendState::SUM),
+            _ => self.blend.then_some(BlendState::PREMULTIPLIED_OVER),
+        };
+        let color = [ColorState { blend, ..ColorState::replace(self.color_format) }; 2];
         gpu.graphics_pipeline(&GraphicsDesc {
             name: self.name(),
             vertex: shader(&self.vertex),
@@ -373,15 +442,18 @@ impl PipelineSpec {
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
             },
             samples: self.samples,
-            color: &[ColorState {
-                format: self.color_format,
-                blend: self.blend.then_some(BlendState::PREMULTIPLIED_OVER),
-                write_mask: vk::ColorComponentFlags::RGBA,
-            }],
+            color: match self.target {
+                Target::Color => &color[..1],
+                Target::ShadowFront | Target::ShadowBack => &[],
+                Target::ShadowLayers => &color,
+            },
             depth: (self.depth != DepthUse::None).then_some(DepthState {
                 format: DEPTH_FORMAT,
                 write: self.depth == DepthUse::TestAndWrite,
-                compare: vk::CompareOp::GREATER_OR_EQUAL,
+                compare: match self.target {
+                    Target::ShadowBack => vk::CompareOp::LESS_OR_EQUAL,
+                    _ => vk::CompareOp::GREATER_OR_EQUAL,
+                },
             }),
         })
     }
@@ -408,6 +480,12 @@ impl ComputeSpec {
     pub fn create(&self, gpu: &Gpu) -> Result<Pipeline, GpuError> {
         gpu.compute_pipeline(&self.shader, shader(&self.shader), &self.constants)
     }
+}
+
+/// Whether a specialization constant is one of these shaders'.
+fn is_known_by(shaders: [&str; 2]) -> impl Fn(&str) -> bool + use<> {
+    let stages = shaders.map(shader);
+    move |name| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name))
 }
 
 fn is_srgb(format: vk::Format) -> bool {

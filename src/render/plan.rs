@@ -9,13 +9,14 @@ use super::left_out::{LeftOut, left_out};
 use super::lit::Lit;
 use super::map::{Map, StandIn, fur_maps, surface_maps};
 use super::options::{FrameOptions, ShellSubmission};
-use super::pipeline::{ComputeSpec, PipelineSpec, shader};
+use super::pipeline::{ComputeSpec, PipelineSpec, Target, shader};
+use super::shadow::{ShadowPlan, casting_layers};
 use super::stream::{Moment, Stream, inputs};
 use super::table::Table;
 use super::targets::Attachment;
 use crate::asset::{Asset, Primitive, Sampler, Topology};
 use crate::material::{AlphaMode, Fur, Standard};
-use crate::scene::{Instance, Lighting, Scene, Side};
+use crate::scene::{Instance, LightLists, Scene, ShadowMaps, Side};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An image on the device: which one, and whether its bytes are sRGB-coded colour or data.
@@ -107,6 +108,14 @@ pub enum Pass {
     ScreenOcclusion,
     /// Their mean.
     ScreenOcclusionBlur,
+    /// Nearest opaque surfaces, as lights see them.
+    Shadow,
+    /// First translucent surfaces, as lights see them.
+    ShadowFront,
+    /// Last ones.
+    ShadowBack,
+    /// How much light all of them let through.
+    ShadowLayers,
     /// Opaque and masked surfaces; always there, since it clears the targets.
     Opaque,
     /// Shells.
@@ -121,12 +130,16 @@ pub enum Pass {
 
 impl Pass {
     /// All, in their order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 14] = [
         Self::Deform,
         Self::Sway,
         Self::Guide,
         Self::ScreenOcclusion,
         Self::ScreenOcclusionBlur,
+        Self::Shadow,
+        Self::ShadowFront,
+        Self::ShadowBack,
+        Self::ShadowLayers,
         Self::Opaque,
         Self::Fur,
         Self::Transparent,
@@ -142,6 +155,10 @@ impl Pass {
             Self::Guide => "guide",
             Self::ScreenOcclusion => "screen occlusion",
             Self::ScreenOcclusionBlur => "screen occlusion blur",
+            Self::Shadow => "shadow",
+            Self::ShadowFront => "shadow front",
+            Self::ShadowBack => "shadow back",
+            Self::ShadowLayers => "shadow layers",
             Self::Opaque => "opaque",
             Self::Fur => "fur",
             Self::Transparent => "transparent",
@@ -160,6 +177,10 @@ pub struct Plan {
     pub attachments: Vec<Attachment>,
     /// What the light of the frame takes.
     pub lit: Lit,
+    /// Which lights reach which instance.
+    pub lights: LightLists,
+    /// What casts shadows into which maps.
+    pub shadows: ShadowPlan,
     /// What stands in the scene, in the planned pose.
     pub instances: Vec<Instance>,
     /// Graphics pipelines, each once.
@@ -199,9 +220,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Decides what `options` of `scene` needs; `instances` and `lighting` are those of the pose to be shown.
-    pub fn new(scene: &Scene, instances: Vec<Instance>, lighting: &Lighting, options: &FrameOptions) -> Self {
-        let mut plan = Self { instances, lit: Lit::new(lighting, options), ..Self::default() };
+    /// Decides what `options` of `scene` needs; `instances` are those of the pose to be shown, and lights reach them and
+    /// cast shadows like that.
+    pub fn new(
+        scene: &Scene,
+        instances: Vec<Instance>,
+        lights: LightLists,
+        maps: ShadowMaps,
+        options: &FrameOptions,
+    ) -> Self {
+        let lit = Lit::new(scene, &instances, &maps, options);
+        let shadows = ShadowPlan::new(maps, lit, options);
+        let mut plan = Self { instances, lit, lights, shadows, ..Self::default() };
         for index in 0..plan.instances.len() {
             plan.add_instance(scene, index, options);
         }
@@ -210,6 +240,12 @@ impl Plan {
         }
         if options.has_guide() {
             plan.add_guide(scene, options);
+        }
+        if !plan.is_lit() {
+            // Nothing receives a shadow.
+            (plan.lit, plan.shadows) = Default::default();
+        } else if lit.shadows {
+            plan.add_casters();
         }
         plan.add_passes(options);
         plan.left_out = left_out(&plan, scene, options);
@@ -312,6 +348,37 @@ impl Plan {
         list.extend(faces.iter().map(|&faces| Draw { instance: index, pipeline, kind, faces }));
     }
 
+    /// What is drawn casts a shadow, too; all faces of it, as a sheet has no thickness to tell its sides apart by.
+    fn add_casters(&mut self) {
+        let shown = [&self.opaque[..], &self.fur, &self.transparent].concat();
+        for draw in shown {
+            let shown = self.pipelines[draw.pipeline].clone();
+            // Of two sides that blend one after the other, one stands for both.
+            if shown.topology != Topology::Triangles || shown.blend && draw.faces == Faces::One(Side::Back) {
+                continue;
+            }
+            let kind = match draw.kind {
+                DrawKind::Fur { material, layers } => DrawKind::Fur { material, layers: casting_layers(layers) },
+                surface => surface,
+            };
+            let is_translucent = shown.casts_in_part();
+            let targets = match is_translucent {
+                true => &[Target::ShadowFront, Target::ShadowBack, Target::ShadowLayers][..],
+                false => &[Target::ShadowFront],
+            };
+            for &target in targets {
+                let pipeline = index_of(&mut self.pipelines, shown.casting(target));
+                let list = match target {
+                    Target::ShadowBack => &mut self.shadows.back,
+                    Target::ShadowLayers => &mut self.shadows.layers,
+                    _ if is_translucent => &mut self.shadows.front,
+                    _ => &mut self.shadows.opaque,
+                };
+                list.push(Draw { pipeline, kind, faces: Faces::Both, ..draw });
+            }
+        }
+    }
+
     /// Only what the pipeline samples: a map without UVs, tangents or light to show it stays off the device.
     fn add_textures(&mut self, scene: &Scene, spec: &PipelineSpec, maps: &[Map]) {
         for map in maps.iter().filter(|map| spec.binds_map(map)) {
@@ -351,7 +418,8 @@ impl Plan {
 
     /// Whether any surface or coat is lit.
     pub fn is_lit(&self) -> bool {
-        self.pipelines.iter().any(|spec| !spec.fragment.contains("UNLIT"))
+        let shows_light = |spec: &PipelineSpec| spec.target == Target::Color && !spec.fragment.contains("UNLIT");
+        self.pipelines.iter().any(shows_light)
     }
 
     /// Whether any shader asks how lobes look into the environment.
@@ -399,13 +467,18 @@ impl Plan {
             (Pass::Guide, options.has_guide()),
             (Pass::ScreenOcclusion, options.screen_occlusion.is_some()),
             (Pass::ScreenOcclusionBlur, options.screen_occlusion.is_some()),
+            (Pass::Shadow, self.lit.shadows),
+            (Pass::ShadowFront, self.lit.translucent_shadows),
+            (Pass::ShadowBack, self.lit.translucent_shadows),
+            (Pass::ShadowLayers, self.lit.translucent_shadows),
             (Pass::Opaque, true),
             (Pass::Fur, !self.fur.is_empty()),
             (Pass::Transparent, !self.transparent.is_empty()),
             (Pass::Transparency, self.composition.is_some()),
             (Pass::Tonemap, true),
         ] {
-            if wanted || options.everything {
+            let is_shadow = matches!(pass, Pass::Shadow | Pass::ShadowFront | Pass::ShadowBack | Pass::ShadowLayers);
+            if wanted || options.everything && (!is_shadow || self.lit.shadows) {
                 self.passes.push(pass);
             }
         }

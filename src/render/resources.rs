@@ -311,7 +311,8 @@ impl Resources {
     }
 
     fn prepare_surfaces(&mut self, upload: &mut Upload, scene: &Scene, plan: &Plan) -> Result<(), GpuError> {
-        for draw in plan.opaque.iter().chain(&plan.transparent).chain(&plan.guide) {
+        let drawn = plan.opaque.iter().chain(&plan.transparent).chain(&plan.guide).chain(plan.shadows.draws());
+        for draw in drawn {
             let DrawKind::Surface(surface) = draw.kind else { continue };
             let spec = &plan.pipelines[draw.pipeline];
             let key = (surface, spec.clone());

@@ -36,7 +36,7 @@ impl Report {
             html += &format!("<h2>{}</h2>\n{}\n", escaped(plot.feature), plot.svg);
         }
         html += "<p class=\"soft\">Down and left is better. Numbers at the points are layers (dynamics: steps a second; \
-                 transparency: samples). \
+                 transparency: samples; shadow: texels of a map). \
                  Grey: what others do. Ringed: no other point is as fast and as right. Hollow: the reference's noise is more \
                  than a tenth of the error. Bars: 95 % interval of the median; of fewer than \
                  six rounds that is all of them.</p>\n<h2>All plots</h2>\n";

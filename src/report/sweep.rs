@@ -6,7 +6,7 @@ use super::question::Method;
 use super::{Effort, Progress, ReportError};
 use crate::gpu::Gpu;
 use crate::oracle::{self, OracleOptions};
-use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shells, Shot, Transparency};
+use crate::render::{FrameOptions, FrameReport, Pass, Renderer, Shadows, Shells, Shot, Transparency};
 use crate::scene::Surroundings;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -46,6 +46,7 @@ impl Recipe {
             transparency: Transparency::Sorted,
             // What the oracle knows.
             surroundings: Surroundings::constant(Vec3::splat(0.05)),
+            shadows: Shadows { are_cast: false, ..Shadows::default() },
             ..Default::default()
         };
         let cameras = cases.cameras(self.view, size[1]);

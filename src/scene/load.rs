@@ -10,8 +10,9 @@ use crate::asset::{
     self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
 };
 use crate::material::{self, Cloth, Look, Material, Standard, presets};
-use crate::math::{Aabb, Hull};
+use crate::math::{Aabb, Hull, Sphere};
 use crate::scene::{Instance, instances};
+use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::Path;
@@ -47,6 +48,8 @@ pub struct Scene {
     sizes: Mutex<HashMap<usize, Size>>,
     /// Outlines by scene and clip, for the same reason.
     outlines: Mutex<HashMap<(usize, Option<usize>), Hull>>,
+    /// Boxes around the positions by mesh and primitive.
+    boxes: Mutex<HashMap<(usize, usize), Aabb>>,
     /// Patches by mesh and primitive, of what blends.
     patches: Mutex<HashMap<(usize, usize), Arc<Patches>>>,
 }
@@ -131,8 +134,8 @@ impl Scene {
     }
 
     fn new(asset: Asset, materials: Vec<Material>) -> Self {
-        let (sizes, outlines, patches) = Default::default();
-        Self { id: new_id(), asset, materials, sizes, outlines, patches }
+        let (sizes, outlines, boxes, patches) = Default::default();
+        Self { id: new_id(), asset, materials, sizes, outlines, boxes, patches }
     }
 
     /// What the file says, and the pictures that looks brought along.
@@ -197,11 +200,28 @@ impl Scene {
     /// Length of the longest strands in a scene, metres.
     fn longest_coat_m(&self, scene: usize) -> f32 {
         let rest = pose(&self.asset, None, 0.0);
-        let length_m = |instance: &Instance| {
-            let fur = self.materials[instance.material].fur.as_ref()?;
-            Some(fur.length.metres(self.size(instance).world_radius_m()))
-        };
-        instances(&self.asset, scene, &rest, None).iter().filter_map(length_m).fold(0.0, f32::max)
+        let all = instances(&self.asset, scene, &rest, None);
+        all.iter().filter_map(|instance| self.coat_m(instance)).fold(0.0, f32::max)
+    }
+
+    /// Length of an instance's strands, metres.
+    fn coat_m(&self, instance: &Instance) -> Option<f32> {
+        let fur = self.materials[instance.material].fur.as_ref()?;
+        Some(fur.length.metres(self.size(instance).world_radius_m()))
+    }
+
+    /// A ball around an instance and its coat; one of what bends is around all that there is, `whole`. Too large rather
+    /// than too small, and endless where that is not known.
+    pub fn ball(&self, instance: &Instance, whole: Option<Sphere>) -> Sphere {
+        let primitive = &self.asset.meshes[instance.mesh].primitives[instance.primitive];
+        if instance.skin.is_some() || !primitive.morph_targets.is_empty() {
+            return whole.unwrap_or(Sphere { center: Vec3::ZERO, radius: f32::INFINITY });
+        }
+        let mut boxes = self.boxes.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Aabb::around(primitive.vertices.positions.iter().copied());
+        let bounds = *boxes.entry((instance.mesh, instance.primitive)).or_insert_with(make);
+        let Sphere { center, radius } = bounds.transformed(instance.world_from_object).sphere();
+        Sphere { center, radius: radius + self.coat_m(instance).unwrap_or(0.0) }
     }
 
     /// How large an instance's mesh is in its rest pose.

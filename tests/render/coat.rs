@@ -10,7 +10,7 @@ use vair::asset::Primitive;
 use vair::material::reference::strand::threshold;
 use vair::material::reference::uv::projected;
 use vair::material::{Fur, Length, Shape};
-use vair::render::{AovPixels, Behind, FrameOptions, Picture, Shot};
+use vair::render::{FrameOptions, Picture, Shot};
 use vair::scene::Scene;
 
 /// Texels a side; each is a block of 4 x 4 pixels, whose middle lies in no 2 x 2 group with another block.
@@ -124,8 +124,7 @@ fn tiling_sets_density() {
         for corner in [[0, 0], [half, 0], [0, half], [half, half]] {
             let rows = (0..half).flat_map(|y| (0..half).map(move |x| (corner[0] + x, corner[1] + y)));
             let radiance = rows.map(|(x, y)| picture.radiance(x, y)).collect();
-            let (behind, aovs) = (Behind::Transparent, AovPixels::default());
-            let quarter = Picture { size: [half; 2], rgba: Vec::new(), radiance, behind, aovs };
+            let quarter = Picture { radiance, ..Picture::new([half; 2], Vec::new()) };
             all_hold([stands_as_mapped(&quarter, &fur, fur.layers)]);
         }
     });

@@ -10,10 +10,10 @@ use std::fmt::Write;
 use vair::asset::procedural::GALLERY_CAMERA;
 use vair::asset::{Sampler, Topology};
 use vair::gpu::CallCounts;
-use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shot};
+use vair::render::{Draw, DrawKind, FrameOptions, FrameReport, Pass, Plan, Shadows, Shot, Target};
 use vair::scene::{CameraChoice, Scene};
 use vair::shader::layout::{
-    FrameUniforms, FurUniforms, LightSource, ObjectUniforms, StandardUniforms, TransparencyEntries,
+    FrameUniforms, FurUniforms, LightSource, ObjectUniforms, ShadowSource, StandardUniforms, TransparencyEntries,
 };
 
 /// Four floats, as stand-ins are; two of them for absent streams.
@@ -45,7 +45,17 @@ struct PerFrame {
 }
 
 fn draws(plan: &Plan) -> Vec<Draw> {
-    [&plan.guide[..], &plan.opaque, &plan.fur, &plan.transparent].concat()
+    let casting: Vec<Draw> = plan.shadows.draws().copied().collect();
+    [&plan.guide[..], &plan.opaque, &plan.fur, &plan.transparent, &casting].concat()
+}
+
+/// The same as often as they are recorded: what casts a shadow is in the map of every light that reaches it.
+fn recorded(plan: &Plan) -> Vec<Draw> {
+    let maps = |draw: &Draw| match plan.pipelines[draw.pipeline].target {
+        Target::Color => 1,
+        _ => plan.shadows.maps.iter().filter(|map| plan.lights.of(draw.instance).contains(&map.light)).count(),
+    };
+    draws(plan).into_iter().flat_map(|draw| std::iter::repeat_n(draw, maps(&draw))).collect()
 }
 
 fn coats(plan: &Plan) -> u64 {
@@ -55,10 +65,14 @@ fn coats(plan: &Plan) -> u64 {
 fn per_frame(scene: &Scene, shot: &Shot) -> PerFrame {
     let plan = &shot.plan;
     let is_lit = plan.pipelines.iter().any(|spec| spec.bindings().contains("LightList"));
-    let mut sizes =
-        vec![size_of::<FrameUniforms>() as u64, (plan.instances.len() * size_of::<ObjectUniforms>()) as u64];
+    let mut sizes = vec![(plan.instances.len() * size_of::<ObjectUniforms>()) as u64];
+    sizes.extend((0..=plan.shadows.maps.len()).map(|_| size_of::<FrameUniforms>() as u64));
     if is_lit {
-        sizes.push((shot.lighting.lights.len() * size_of::<LightSource>()) as u64);
+        // Vulkan has no empty buffers.
+        sizes.push((plan.lights.lights.len().max(1) * size_of::<LightSource>()) as u64);
+    }
+    if plan.shadows.is_bound {
+        sizes.push((plan.shadows.maps.len().max(1) * size_of::<ShadowSource>()) as u64);
     }
     sizes.extend((0..coats(plan)).map(|_| size_of::<FurUniforms>() as u64));
     let skins: BTreeSet<usize> = plan.deforms.iter().filter_map(|d| plan.instances[d.instance].skin).collect();
@@ -107,7 +121,7 @@ fn draw_calls(scene: &Scene, plan: &Plan) -> u64 {
         let spec = &plan.pipelines[draw.pipeline];
         if double_sided && spec.blend && !spec.lists() && spec.topology == Topology::Triangles { 2 } else { 1 }
     };
-    draws(plan).iter().map(sides).sum()
+    recorded(plan).iter().map(sides).sum()
 }
 
 /// The first frame of a scene makes what the plan lists.
@@ -117,12 +131,12 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
     let per_frame = per_frame(scene, &shot);
     let (source_buffers, source_bytes) = deform_sources(scene, plan);
     let raster = plan.passes.iter().filter(|pass| !matches!(pass, Pass::Deform | Pass::Sway)).count() as u64;
-    let images = plan.textures.len() + plan.stand_ins.len() + plan.attachments.len() + 1;
+    let images = plan.textures.len() + plan.stand_ins.len() + plan.attachments.len() + plan.shadows.images().len() + 1;
     let mipmapped = plan.textures.iter().map(|texture| &asset.images[texture.image]);
     let mipmapped = mipmapped.filter(|image| image.width.max(image.height) > 1).count();
     let streams: usize = plan.streams.values().map(BTreeSet::len).sum();
     let absent = u64::from(plan.has_absent_streams);
-    let inputs: usize = draws(plan).iter().map(|draw| plan.pipelines[draw.pipeline].inputs().len()).sum();
+    let inputs: usize = recorded(plan).iter().map(|draw| plan.pipelines[draw.pipeline].inputs().len()).sum();
     let kept = streams as u64 + plan.streams.len() as u64 + absent + surfaces(plan) + source_buffers;
     // What stands in is not filtered.
     let unfiltered = plan.stand_ins.iter().map(|_| NEAREST);
@@ -143,14 +157,14 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
         ("vkCreateImageView", (images + mipmapped) as u64),
         // What strands remember from frame to frame is a buffer a coat.
         ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64 + 4 * composes),
-        ("vkCreateSampler", samplers.len() as u64),
+        ("vkCreateSampler", samplers.len() as u64 + u64::from(plan.shadows.is_bound)),
         ("vkCmdCopyBuffer", kept + 2 * composes),
         ("vkCmdBeginRendering", raster),
         ("vkCmdDrawIndexed", draw_calls(scene, plan)),
         ("vkCmdDraw", 1 + over_pixels),
         ("vkCmdDispatch", (plan.deforms.len() + plan.sways.len()) as u64),
         ("vkCmdBindVertexBuffers2", inputs as u64),
-        ("vkCmdBindIndexBuffer", draws(plan).len() as u64),
+        ("vkCmdBindIndexBuffer", recorded(plan).len() as u64),
     ] {
         assert_eq!(report.calls.of(name), expected, "{what}: {name}");
     }
@@ -194,8 +208,10 @@ fn later_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, calls
 fn the_device_is_asked_for_what_the_plan_lists() {
     for (what, scene, frame) in scenes() {
         for everything in [false, true] {
-            let (what, frame) =
-                (format!("{what}, everything {everything}"), FrameOptions { everything, ..frame.clone() });
+            let (what, frame) = (
+                format!("{what}, everything {everything}"),
+                FrameOptions { everything, shadows: Shadows::default(), ..frame.clone() },
+            );
             headless(|device| {
                 let (_, first) = device.reported(&scene, &frame);
                 first_frame_is_planned(&what, &scene, &frame, &first);

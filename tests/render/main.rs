@@ -42,6 +42,7 @@ mod presets;
 mod satin;
 mod scenes;
 mod screen_occlusion;
+mod shadow;
 mod shells;
 mod submission;
 mod surface;

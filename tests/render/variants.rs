@@ -2,14 +2,18 @@
 
 use crate::deform::bent_tube;
 use crate::headless::headless;
-use crate::stage::{Stage, at, options, plain, quad};
+use crate::stage::{Stage, at, options as unshadowed, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
 use vair::material::{Blend, Cloth, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
-use vair::render::{Aovs, FrameOptions, Plan, ScreenOcclusion, Shot, Transparency};
-use vair::scene::Scene;
+use vair::render::{Aovs, FrameOptions, Plan, ScreenOcclusion, Shadows, Shot, Target, Transparency};
+use vair::scene::{Light, Scene};
 use vair::shader::table;
+
+fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
+    FrameOptions { shadows: Shadows::default(), ..unshadowed(size, msaa) }
+}
 
 fn colored(has_color: bool) -> Primitive {
     let mut primitive = quad(0.5, 0.5);
@@ -185,22 +189,26 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     // Their pipelines are made below, beside these.
     for scene in [AlphaMode::Opaque, AlphaMode::Blend].map(cloths) {
         for transparency in [Transparency::PerPixel, Transparency::Sorted] {
-            for frame in guided(&FrameOptions { transparency, ..options([4, 4], 4) }) {
-                let plan = Shot::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
-                used.extend(plan.pipelines.into_iter().flat_map(|spec| [spec.vertex, spec.fragment]));
+            for lights in [vec![Light::key()], Vec::new()] {
+                for frame in guided(&FrameOptions { transparency, lights: lights.clone(), ..options([4, 4], 4) }) {
+                    let plan = Shot::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
+                    used.extend(plan.pipelines.into_iter().flat_map(|spec| [spec.vertex, spec.fragment]));
+                }
             }
         }
     }
     headless(|device| {
-        for msaa in [1, 4] {
+        // A light casts shadows, and without one nothing is occluded.
+        for (msaa, lights) in [(1, vec![Light::key()]), (4, Vec::new())] {
             for scene in &scenes {
                 let animation = (!scene.asset().animations.is_empty()).then_some(0);
-                let frame = FrameOptions { animation, ..options([4, 4], msaa) };
+                let frame = FrameOptions { animation, lights: lights.clone(), ..options([4, 4], msaa) };
                 for frame in guided(&frame) {
                     let plan = Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
                     used.extend(plan.pipelines.iter().flat_map(|spec| [spec.vertex.clone(), spec.fragment.clone()]));
                     if !frame.aovs.any() {
-                        used.extend(plan.pipelines.iter().map(|spec| spec.counting().fragment));
+                        let drawn = plan.pipelines.iter().filter(|spec| spec.target == Target::Color);
+                        used.extend(drawn.map(|spec| spec.counting().fragment));
                     }
                     used.extend(plan.composition.iter().map(|spec| spec.fragment.clone()));
                     used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader.clone()));
@@ -215,8 +223,8 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
     });
 }
 
-fn plan_of(scene: &Scene, transparency: Transparency) -> Plan {
-    let frame = FrameOptions { transparency, ..options([4, 4], 4) };
+fn plan_of(scene: &Scene, transparency: Transparency, lights: Vec<Light>) -> Plan {
+    let frame = FrameOptions { transparency, lights, ..options([4, 4], 4) };
     Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan
 }
 
@@ -225,10 +233,12 @@ fn every_pipeline_of_cloth_can_be_made() {
     let scenes = [AlphaMode::Opaque, AlphaMode::Blend].map(cloths);
     headless(|device| {
         for scene in &scenes {
-            device.picture(scene, &options([4, 4], 4));
-            let made = device.renderer.pipeline_descriptions().len();
-            let planned = plan_of(scene, Transparency::PerPixel).pipelines.len();
-            assert!(made >= planned && made > 5 * Cloth::KINDS.len(), "{made}");
+            for lights in [vec![Light::key()], Vec::new()] {
+                device.picture(scene, &FrameOptions { lights: lights.clone(), ..options([4, 4], 4) });
+                let made = device.renderer.pipeline_descriptions().len();
+                let planned = plan_of(scene, Transparency::PerPixel, lights).pipelines.len();
+                assert!(made >= planned && made > 5 * Cloth::KINDS.len(), "{made}");
+            }
         }
     });
 }

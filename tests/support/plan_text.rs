@@ -13,6 +13,14 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     for attachment in &plan.attachments {
         line(format!("  {}: {:?}, {} samples", attachment.name, attachment.format, attachment.samples));
     }
+    for (name, format) in plan.shadows.images() {
+        line(format!("  {name}: {format:?}, {:?} texels", plan.shadows.size()));
+    }
+    line(format!("lights: {:?}, by instance {:?}", plan.lights.lights, plan.lights.ranges));
+    for map in &plan.shadows.maps {
+        let kind = if map.is_orthographic { "parallel" } else { "perspective" };
+        line(format!("shadow map: light {}, {kind}", map.light));
+    }
     line("instances:".to_owned());
     for instance in &plan.instances {
         let (mesh, primitive) = (instance.mesh, instance.primitive);
@@ -22,9 +30,9 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
         let morphs = instance.morph_weights.len();
         line(format!("  mesh {mesh}.{primitive}, {material:?}{mirrored}{skinned}, {morphs} morph targets"));
     }
-    for (name, draws) in
-        [("guide", &plan.guide), ("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)]
-    {
+    let shown =
+        [("guide", &plan.guide[..]), ("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)];
+    for (name, draws) in plan.shadows.lists().map(|(pass, draws)| (pass.name(), draws)).into_iter().chain(shown) {
         line(format!("{name} draws: {}", draws.len()));
         for Draw { instance, pipeline, kind, faces } in draws {
             line(format!("  instance {instance}, pipeline {pipeline}, {kind:?}, {faces:?}"));

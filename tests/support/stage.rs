@@ -5,7 +5,7 @@ use vair::asset::{
     Asset, AssetScene, Camera, Image, Light, LightKind, Material, Mesh, Node, Primitive, Projection, Sampler, Texture,
     TextureRef, Transform, Vertices,
 };
-use vair::render::{FrameOptions, Tonemap};
+use vair::render::{FrameOptions, Shadows, Tonemap};
 use vair::scene::{CameraChoice, Scene, Surroundings};
 
 /// Depth of the front camera before the XY plane, metres; it sees as far behind it.
@@ -107,11 +107,13 @@ pub fn camera_axes(backwards: Vec3, up: Vec3) -> Mat3 {
 /// Radiance from everywhere on every stage.
 pub const AMBIENT: f32 = 0.05;
 
-/// A picture of the first camera, linear and unexposed.
+/// A picture of the first camera, linear and unexposed, without shadows: what is computed beside it knows none, and swatches
+/// stand closely.
 pub fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
     let surroundings = Surroundings::constant(Vec3::splat(AMBIENT));
     let camera = CameraChoice::Index(0);
-    FrameOptions { size, msaa, camera, tonemap: Tonemap::None, surroundings, ..FrameOptions::default() }
+    let shadows = Shadows { are_cast: false, ..Shadows::default() };
+    FrameOptions { size, msaa, camera, tonemap: Tonemap::None, surroundings, shadows, ..FrameOptions::default() }
 }
 
 /// A rectangle in the XY plane that faces +Z, uv (0, 0) at its top left.

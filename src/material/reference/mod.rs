@@ -28,6 +28,7 @@ pub mod lock;
 pub mod occlusion;
 pub mod octahedral;
 pub mod satin;
+pub mod shadow;
 pub mod sheen;
 pub mod standard;
 pub mod strand;

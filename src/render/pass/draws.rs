@@ -15,8 +15,8 @@ use crate::scene::Side;
 use crate::shader::layout::ObjectDraw;
 use ash::vk::{CullModeFlags, FrontFace};
 
-/// Records draws in their order.
-pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
+/// Records draws in their order, seen by the camera (view 0) or by a light into a shadow map (its number from 1).
+pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame, view: usize) {
     let Frame { scene, resources, motion, data, .. } = *frame;
     let plan = &frame.shot.plan;
     let mut bound = None;
@@ -26,7 +26,7 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
         if bound.replace(draw.pipeline) != Some(draw.pipeline) {
             pass.pipeline(resources.pipeline(spec));
             for set in [FRAME_SET, OBJECT_SET] {
-                pass.bind(set, data.shared_group(set, spec));
+                pass.bind(set, data.shared_group(view, set, spec));
             }
             vertex_inputs = inputs(shader(&spec.vertex));
         }
@@ -47,8 +47,11 @@ pub fn record(pass: &mut RenderPass, draws: &[Draw], frame: &Frame) {
             }
         }
         pass.indices(&resources.indices[&index], 0);
+        let lights = &plan.lights.ranges[draw.instance];
         let object = ObjectDraw {
             object_index: draw.instance as u32,
+            first_light: lights.start,
+            light_count: lights.end - lights.start,
             vertices_per_shell: primitive.vertices.positions.len() as u32,
             rank: rank as u32,
             metres_per_unit: scene.size(instance).world_from_rest,

@@ -15,5 +15,5 @@ pub fn record(encoder: &mut Encoder, frame: &Frame, targets: &GuideTargets) {
     let depth = Some(DepthTarget { image: &targets.depth, load: Load::Clear([0.0; 4]), store: true });
     let desc =
         RenderPassDesc { name: Pass::Guide.name(), size: frame.options.size, color: &color, depth, sampled: &[] };
-    encoder.render_pass(&desc, |pass| draws::record(pass, &frame.shot.plan.guide, frame));
+    encoder.render_pass(&desc, |pass| draws::record(pass, &frame.shot.plan.guide, frame, 0));
 }

@@ -5,6 +5,7 @@ pub mod draws;
 pub mod guide;
 pub mod order;
 pub mod screen_occlusion;
+pub mod shadow;
 pub mod sway;
 pub mod tonemap;
 pub mod transparency;
@@ -14,6 +15,7 @@ use super::frame_data::FrameData;
 use super::motion::Motion;
 use super::options::FrameOptions;
 use super::resources::Resources;
+use super::shadow::ShadowAtlas;
 use crate::scene::Scene;
 use transparency::Composition;
 
@@ -51,6 +53,8 @@ pub struct Frame<'a> {
     pub motion: &'a Motion,
     /// What this frame alone reads.
     pub data: &'a FrameData,
+    /// Shadow maps, where lights cast any.
+    pub atlas: Option<&'a ShadowAtlas>,
     /// Where what blends goes; `None` where nothing is listed, or fragments are only counted.
     pub composition: Option<&'a Composition<'a>>,
 }

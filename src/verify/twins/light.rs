@@ -25,11 +25,16 @@ pub(super) const TWINS: &[Twin] = &[
             Domain::Log(1e-3, 1e6, &[0.0, 1e-38, 1.0, 1e30]),
             Domain::Log(1.0, 1e3, &[1.0, 1e3]),
             Domain::Uniform(-1e3, 1.0, &[-1e3, -0.5, 0.0, 1.0]),
+            // Its shadow maps, which are read elsewhere.
+            Domain::Choice(&[0]),
+            Domain::Choice(&[0]),
             PLACE,
         ],
         |given| {
             let (position, range_m, axis, kind) = (given.vec3(), given.number(), given.vec3(), given.uint());
-            let (intensity, scale, offset, place) = (given.vec3(), given.number(), given.number(), given.vec3());
+            let (intensity, scale, offset) = (given.vec3(), given.number(), given.number());
+            let _shadows = (given.uint(), given.uint());
+            let place = given.vec3();
             let limited = |irradiance: DVec3| irradiance.min(DVec3::splat(light::LARGEST_IRRADIANCE));
             if kind == 0 {
                 return [axis, limited(intensity)].map(|vector| vector.to_array()).concat();

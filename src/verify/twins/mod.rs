@@ -24,6 +24,7 @@ mod lock;
 mod occlusion;
 mod octahedral;
 mod satin;
+mod shadow;
 mod sheen;
 mod standard;
 mod strand;
@@ -61,6 +62,7 @@ const FILES: &[&[Twin]] = &[
     occlusion::TWINS,
     octahedral::TWINS,
     satin::TWINS,
+    shadow::TWINS,
     sheen::TWINS,
     standard::TWINS,
     strand::TWINS,
