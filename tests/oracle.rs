@@ -11,7 +11,7 @@ use vair::material::reference::albedo::gauss_legendre;
 use vair::material::reference::hash;
 use vair::material::reference::strand::{Strand, cross_section, slab_opacity, width};
 use vair::oracle::{Coat, Corner, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render};
-use vair::render::{ShellAlpha, ShellSampling, Shells};
+use vair::render::{Shadows, ShellAlpha, ShellSampling, Shells};
 use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene, Surroundings};
 
 /// Three numbers in [0, 1).
@@ -379,8 +379,18 @@ fn the_densest_stack_of_shells_comes_near() {
     let shells = Shells { sampling: ShellSampling::Slab, alpha: ShellAlpha::Step, ..Shells::default() };
     let camera = view.choice.clone();
     let surroundings = view.lighting.surroundings.clone();
-    let options =
-        FrameOptions { size, camera, layers: Some(256), shells, msaa: 1, surroundings, ..FrameOptions::default() };
+    // Of which the oracle knows nothing.
+    let shadows = Shadows { are_cast: false, ..Shadows::default() };
+    let options = FrameOptions {
+        size,
+        camera,
+        layers: Some(256),
+        shells,
+        msaa: 1,
+        surroundings,
+        shadows,
+        ..FrameOptions::default()
+    };
     headless::headless(|device| {
         let picture = device.picture(&view.scene, &options);
         let pixels = || exact.radiance.iter().zip(&picture.radiance).map(|(a, b)| [*a, b.as_dvec4()]);

@@ -135,12 +135,6 @@ enum HdrChoice {
     B10g11r11,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Switch {
-    On,
-    Off,
-}
-
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum TransparencyChoice {
     PerPixel,

@@ -2,7 +2,7 @@
 
 use super::Shot;
 use super::environment::{EnvironmentMaps, HARMONICS, LobeTable};
-use super::map::fur_maps;
+use super::map::{StandIn, fur_maps};
 use super::material::fur_uniforms;
 use super::pipeline::{PipelineSpec, Target};
 use super::plan::{Draw, DrawKind, Plan};
@@ -121,7 +121,9 @@ impl FrameData {
             offered.push(("PreviousFrameBlock", Resource::Buffer(frame)));
             offered.push(("PreviousObjectList", Resource::Buffer(objects)));
         }
-        offered.extend(maps.occlusion.map(|image| ("screen_occlusion_map", Resource::Texture(image))));
+        // Where shadows alone hide light, it is bound and not read.
+        let occlusion = maps.occlusion.or(resources.stand_in(StandIn::White));
+        offered.extend(occlusion.map(|image| ("screen_occlusion_map", Resource::Texture(image))));
         if let Some(lights) = &self.lights {
             offered.push(("LightList", Resource::Buffer(lights)));
         }

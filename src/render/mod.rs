@@ -412,7 +412,7 @@ impl Renderer {
         for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
             self.resources.make_pipeline(spec)?;
         }
-        self.prepare_environment(&shot.plan, options)?;
+        self.prepare_environment(shot.plan.is_lit(), shot.plan.binds_lobes(), options)?;
         self.prepare_atlas(&shot.plan.shadows)?;
         let occlusion = self.targets.as_ref().and_then(|targets| targets.occlusion.as_ref());
         if occlusion.is_some() {
@@ -442,15 +442,29 @@ impl Renderer {
         Ok(())
     }
 
+    /// Makes what the surroundings are on the device ahead of the first frame that they light, which may wait seconds for
+    /// it where no cache has them.
+    ///
+    /// # Errors
+    /// When the device is out of memory or lost.
+    pub fn prepare_surroundings(&mut self, options: &FrameOptions) -> Result<(), RenderError> {
+        self.prepare_environment(true, true, options)
+    }
+
     /// Makes what the environment is on the device, if the last frame had another one; the old one goes first, as two
     /// need not fit at once.
-    fn prepare_environment(&mut self, plan: &Plan, options: &FrameOptions) -> Result<(), RenderError> {
+    fn prepare_environment(
+        &mut self,
+        is_lit: bool,
+        has_lobes: bool,
+        options: &FrameOptions,
+    ) -> Result<(), RenderError> {
         let (gpu, environment, quality) = (&self.gpu, &options.surroundings.environment, options.environment_quality);
-        if plan.is_lit() && !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment, quality)) {
+        if is_lit && !self.environment.as_ref().is_some_and(|maps| maps.are_of(environment, quality)) {
             self.environment = None;
             self.environment = Some(EnvironmentMaps::new(gpu, environment, quality)?);
         }
-        if plan.binds_lobes() && !self.lobes.as_ref().is_some_and(|lobes| lobes.is_of(&quality)) {
+        if has_lobes && !self.lobes.as_ref().is_some_and(|lobes| lobes.is_of(&quality)) {
             self.lobes = Some(LobeTable::new(gpu, &quality)?);
         }
         if options.shows_environment() && !self.backdrop.as_ref().is_some_and(|image| image.is_of(environment)) {

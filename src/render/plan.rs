@@ -247,6 +247,9 @@ impl Plan {
         } else if lit.shadows {
             plan.add_casters();
         }
+        if plan.lit.shadows && !plan.lit.screen_occlusion {
+            plan.stand_ins.insert(StandIn::White);
+        }
         plan.add_passes(options);
         plan.left_out = left_out(&plan, scene, options);
         plan

@@ -146,6 +146,11 @@ impl Resources {
         self.absent.as_ref()
     }
 
+    /// The texel of that kind, where the plan lists it.
+    pub fn stand_in(&self, stand_in: StandIn) -> Option<&Image> {
+        self.stand_ins.get(&stand_in)
+    }
+
     /// The texture and sampler of a map that a pipeline of the plan binds, or what stands in for it.
     fn map(&self, scene: &Scene, spec: &PipelineSpec, map: &Map) -> (&Image, &Sampler) {
         let Some(used) = map.texture.filter(|_| spec.samples_map(map)) else {

@@ -6,11 +6,13 @@ use std::process::Stdio;
 #[test]
 fn mistakes_are_status_2_and_one_line() {
     let folder = with_quad();
-    let cases: [(&[&str], &[&str]); 29] = [
+    let cases: [(&[&str], &[&str]); 31] = [
         (&["frobnicate"], &["frobnicate"]),
         (&["render", "--nonsense"], &["--nonsense"]),
         (&["render", "a.glb", "b.glb"], &["b.glb"]),
-        (&["render", "--env", "a.hdr"], &["--env"]),
+        (&["render", "--env-strength=-1"], &["--env-strength"]),
+        (&["render", "--env-rotation", "nan"], &["--env-rotation"]),
+        (&["render", "--shadows", "maybe"], &["--shadows", "on, off"]),
         (&["render", "--prest", "fox"], &["--prest", "--preset"]),
         (&["render", "--size", "garbage"], &["garbage", "--size", "1280x720"]),
         (&["render", "--size", "0x0"], &["0x0", "--size", "at least 1"]),

@@ -2,7 +2,7 @@
 
 use crate::headless::headless;
 use crate::stage::{Stage, at, options, plain, quad};
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec4};
 use std::f64::consts::TAU;
 use vair::asset::Transform;
 use vair::asset::procedural::sphere;
@@ -102,7 +102,9 @@ fn nothing_beyond_the_radius_leaves_a_halo() {
 #[test]
 fn ambient_light_alone_darkens_and_everything_off_is_as_before() {
     headless(|device| {
-        let scene = corner();
+        let mut scene = corner();
+        // A white corner is lit by its own walls.
+        scene.materials_mut()[0].standard.base_color = Vec4::new(0.1, 0.1, 0.1, 1.0);
         let off = device.picture(&scene, &options([64, 64], 4));
         let asked = ScreenOcclusion { radius_m: Some(0.5), ..ScreenOcclusion::default() };
         let on = device.picture(&scene, &FrameOptions { screen_occlusion: Some(asked), ..options([64, 64], 4) });

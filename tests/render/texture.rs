@@ -6,7 +6,9 @@ use crate::stage::{NEAREST, Stage, at, options, plain, quad, unlit};
 use crate::surface::{AMBIENT, radiance};
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use vair::asset::{Material, Primitive, Sampler, TextureRef, Wrap};
+use vair::material::reference::albedo::Fit;
 use vair::material::reference::color::linear_from_srgb;
+use vair::material::reference::occlusion;
 use vair::material::reference::standard::Surface;
 use vair::material::reference::uv::transformed;
 use vair::render::Picture;
@@ -164,7 +166,10 @@ fn data_maps_are_not_decoded() {
         let picture = device.picture(&with_texel(texel, plain(), put, to_light), &options([4, 4], 1));
         is_data("occlusion", &picture, |value| {
             let left = 1.0 + 0.75 * (value(GREY) - 1.0);
-            radiance(plain_surface, AMBIENT * left, DVec3::Z, DVec3::Z, l, DVec3::ONE)
+            let mirrored = Fit::shipped().compensated_albedo(0.04, 1.0, 1.0);
+            let by_lobe = mirrored * occlusion::bounced(occlusion::of_lobe(1.0, 1.0, left), 0.04);
+            let ambient = by_lobe + (1.0 - mirrored) * occlusion::bounced(left, 1.0);
+            radiance(plain_surface, 0.0, DVec3::Z, DVec3::Z, l, DVec3::ONE) + AMBIENT * ambient
         });
 
         let texel = [190, 100, 220, 255];

@@ -32,7 +32,9 @@ pub fn headless(check: impl FnOnce(&mut Headless)) {
 
 /// What the validation layer says about `check` and the end of the device.
 pub fn validation_messages(check: impl FnOnce(&mut Headless)) -> Vec<String> {
-    let gpu = Gpu::new(&GpuOptions { validate: true, ..GpuOptions::default() })
+    // What is made of an environment once serves every test.
+    let pipeline_cache_dir = Some(env!("CARGO_TARGET_TMPDIR").into());
+    let gpu = Gpu::new(&GpuOptions { validate: true, pipeline_cache_dir, ..GpuOptions::default() })
         .unwrap_or_else(|error| panic!("{error}; tools/setup installs what the tests need"));
     let log = gpu.validation_log();
     let renderer = Renderer::with_gpu(gpu.clone()).unwrap_or_else(|error| panic!("{error}"));
