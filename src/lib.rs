@@ -69,8 +69,9 @@
 //! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists
 //! draws, pipelines, vertex streams and textures, and what is left out and why. Nothing has touched the device yet:
 //! `vair inspect` prints just this. The resources then make what the plan lists and nothing else, and the frame records
-//! its passes: deform (skins and morphs, in compute), sway (strands that lag behind), shadow (what lights see, up to four
-//! passes into one atlas), opaque, fur, transparent, tone mapping.
+//! its passes: deform (skins and morphs, in compute), sway (strands that lag behind), guide (depth, normal and motion) and
+//! screen occlusion where they are asked for, shadow (what lights see, up to four passes into one atlas), opaque, fur,
+//! transparent (what blends, into lists) and transparency (the lists, sorted and composed), tone mapping.
 //!
 //! # Fur
 //! A coat is strands on a lattice of the rest pose and a few shells over the mesh, one instance each, the outermost

@@ -137,7 +137,7 @@ fn tiny_report() -> Report {
         }
     })
     .unwrap();
-    assert_eq!(stages, ["references", "errors", "times", "furnace", "transparency"]);
+    assert_eq!(stages, ["references", "errors", "times", "furnace", "environment", "transparency", "shadow"]);
     let messages = gpu.validation_log().messages();
     assert!(messages.is_empty(), "{messages:?}");
     report

@@ -69,9 +69,15 @@ void main() {
         if (l.z <= 0.0) { continue; }
         // The density of l is a quarter of the facet's.
         float solid_angle = 4.0 * thinned / (float(draw.samples) * ggx_ndf(facet, alpha, alpha));
-        uint level = uint(clamp(0.5 * log2(solid_angle / texel_solid_angle) + 0.5, 0.0, smallest));
+        // Between two levels, so that neighbouring texels do not catch and miss a small sun.
+        float level = clamp(0.5 * log2(solid_angle / texel_solid_angle) + 0.5, 0.0, smallest);
+        uint finer = uint(level);
+        uint coarser = min(finer + 1u, uint(smallest));
+        vec3 radiance = mix(cube_radiance(frame * l, cube_level_start(draw.face_px, finer), draw.face_px >> finer),
+                            cube_radiance(frame * l, cube_level_start(draw.face_px, coarser), draw.face_px >> coarser),
+                            fract(level));
         float weight = thinned * environment_masking(l.z, alpha);
-        sum += weight * cube_radiance(frame * l, cube_level_start(draw.face_px, level), draw.face_px >> level);
+        sum += weight * radiance;
         weights += weight;
     }
     prefiltered[target] = vec4(sum / max(weights, 1e-6), 0.0);

@@ -289,7 +289,8 @@ void main() {
     // shells above, so that the view counts once.
     Fibre fibre = fibre_to_eye(normal, strand, to_eye, fur.specular, fur.transmission, fibre_variance(fur.roughness));
     float depth_all_over = -log(max(1.0 - fur.occlusion * (1.0 - height), 1e-3));
-    vec3 sum = screen_occlusion() * fur_surroundings(fibre, color, to_eye, depth_all_over);
+    // Strands know how they hide each other; the screen would count it twice.
+    vec3 sum = fur_surroundings(fibre, color, to_eye, depth_all_over);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         float depth = strand_optical_depth(height, fur.occlusion, dot(normal, light.direction_in_world));

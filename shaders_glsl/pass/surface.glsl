@@ -198,7 +198,9 @@ SurfaceFragment surface_fragment(vec4 color) {
     f.base_color = clamp(color.rgb, 0.0, 1.0);
     f.metallic = material.metallic;
     f.roughness = material.roughness;
-    f.occlusion = screen_occlusion();
+    // The screen knows what is nearest and opaque, not what blends before it.
+    uint mode = ALPHA_MODE;
+    f.occlusion = mode == 2u ? 1.0 : screen_occlusion();
     f.emissive = material.emissive;
 #ifdef UV
     if (HAS_METALLIC_ROUGHNESS_MAP) {

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 // Composes each pixel's list of what blends over the opaque picture, sample by sample, and averages the samples.
+#include "frame.glsl"
 #include "transparency_list.glsl"
 #include "transparency.glsl"
 #include "sample_places.glsl"
@@ -177,7 +178,10 @@ void main() {
     if (!WEIGHTED) {
         // Layers are linear in what lies behind: where all samples see the same ones, once does for all.
         radiance = sorted(head, MIDDLE, mean, nearest, is_same);
-        if (is_same) { return; }
+        if (is_same) {
+            radiance.rgb = min(radiance.rgb, vec3(RADIANCE_LIMIT));
+            return;
+        }
     }
     vec4 sum = vec4(0.0);
     for (uint index = 0u; index < SAMPLES; ++index) {
@@ -189,4 +193,5 @@ void main() {
     vec4 behind = texelFetch(opaque, place, 0);
     radiance = WEIGHTED ? weighted(head, 0u, behind, 0.0) : sorted(head, 0u, behind, 0.0, is_same);
 #endif
+    radiance.rgb = min(radiance.rgb, vec3(RADIANCE_LIMIT));
 }

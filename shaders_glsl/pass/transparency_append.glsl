@@ -18,6 +18,7 @@ vec2 list_slope() {
 // What goes to the colour target: nothing, or all of it where no entry is left. Premultiplied radiance; of what lies at
 // one depth, the higher rank is over the others.
 vec4 list_append(vec3 radiance, vec3 transmittance, vec2 slope, uint samples, uint rank) {
+    radiance = min(radiance, vec3(RADIANCE_LIMIT));
     if (samples == 0u || (radiance == vec3(0.0) && transmittance == vec3(1.0))) { return vec4(0.0); }
     uint index = atomicAdd(fragment_count, 1u);
     if (index >= capacity) { return vec4(radiance, 1.0 - (transmittance.r + transmittance.g + transmittance.b) / 3.0); }

@@ -58,6 +58,9 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     if arguments.scene.aovs().any() && format != PictureFormat::Exr {
         return Err(UsageError("--aov: only EXR files hold layers; name the picture .exr with --out").into());
     }
+    if arguments.scene.aovs().occlusion && !arguments.scene.has_screen_occlusion() {
+        return Err(UsageError("--aov occlusion shows screen-space occlusion; turn it on with --ssao on").into());
+    }
     let count = arguments.frame_numbers().map_or(1, Iterator::count);
     let Some(first) = arguments.shots().next() else {
         bail!("--shard: no frame of this sequence is in that part; use fewer parts than frames");

@@ -73,7 +73,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "1/4", value_parser = ["1", "4"])]
     msaa: Option<String>,
     /// Ambient occlusion from what the screen shows.
-    #[arg(long, value_enum, default_value_t = Switch::Off)]
+    #[arg(long, value_enum, default_value_t = Switch::Off, value_name = "on/off", hide_possible_values = true)]
     ssao: Switch,
     /// Layers beside the colour, in the same .exr: depth (metres along the view direction, 1e10 where nothing is), normal
     /// (world space), motion (pixels since the frame before, at --fps; x to the right, y down), occlusion (of --ssao on).
@@ -99,7 +99,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "EV", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
     exposure: f32,
     /// Whether lights cast shadows.
-    #[arg(long, value_enum, default_value_t = Switch::On)]
+    #[arg(long, value_enum, default_value_t = Switch::On, value_name = "on/off", hide_possible_values = true)]
     shadows: Switch,
     /// Light from all around: an equirectangular .hdr or .exr picture; without one, the embedded studio.
     #[arg(long, value_name = "FILE.hdr/.exr")]
@@ -108,7 +108,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = values::finite, allow_negative_numbers = true)]
     env_rotation: f32,
     /// Factor on the environment's radiance, at least 0.
-    #[arg(long, value_name = "X", default_value = "1", value_parser = values::not_negative)]
+    #[arg(long, value_name = "X", default_value = "1", value_parser = values::not_negative, allow_negative_numbers = true)]
     env_strength: f32,
     /// What stands behind: env, transparent, or a colour in sRGB.
     #[arg(long, value_name = "env/transparent/R,G,B", default_value = "env", value_parser = values::background)]
@@ -255,6 +255,11 @@ impl SceneArguments {
             previous_time_s: None,
             everything: false,
         })
+    }
+
+    /// Whether the screen hides ambient light.
+    pub fn has_screen_occlusion(&self) -> bool {
+        self.ssao == Switch::On
     }
 
     /// What is all around; says what was odd about its file.

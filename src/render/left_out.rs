@@ -139,8 +139,8 @@ impl List {
         // What other renderers bind to light a scene. It is left out as long as no shader in use declares it.
         for (what, word, why) in [
             ("shadow maps", "shadow", reason_of_no_shadows(plan, options)),
-            ("look-up tables", "table", "the standard material's albedo is a closed fit"),
-            ("environment maps", "environment", "nothing is lit"),
+            ("look-up tables", "table", "nothing that is drawn is lit"),
+            ("environment maps", "environment", "nothing that is drawn is lit"),
         ] {
             if !used.iter().flat_map(|shader| shader.bindings).any(|binding| binding.name.contains(word)) {
                 self.add(what, why);
@@ -167,7 +167,12 @@ impl List {
 
 fn reason_of_binding(plan: &Plan, scene: &Scene, family: &str, binding: &str, options: &FrameOptions) -> &'static str {
     match (binding.strip_suffix("_map"), binding) {
-        _ if binding.to_lowercase().starts_with("shadow") => reason_of_no_shadows(plan, options),
+        _ if binding == "screen_occlusion_map" => reason_of_attachment("screen occlusion"),
+        _ if binding.starts_with("environment") || binding.starts_with("lobe") => "nothing that is drawn is lit",
+        _ if binding.to_lowercase().starts_with("shadow") => match plan.lit.shadows {
+            true => "nothing that it draws lets light through in part",
+            false => reason_of_no_shadows(plan, options),
+        },
         (Some(stem), _) if has_map(plan, scene, family, stem) => {
             "the mesh has no coordinates for the map, or nothing lights it"
         }

@@ -412,7 +412,9 @@ impl Renderer {
         for spec in [Some(&tonemap), shot.plan.composition.as_ref()].into_iter().flatten() {
             self.resources.make_pipeline(spec)?;
         }
-        self.prepare_environment(shot.plan.is_lit(), shot.plan.binds_lobes(), options)?;
+        // A format without alpha has the mean of the surroundings for its background.
+        let is_shown = options.background == Background::Environment && !options.hdr_format.has_alpha();
+        self.prepare_environment(shot.plan.is_lit() || is_shown, shot.plan.binds_lobes(), options)?;
         self.prepare_atlas(&shot.plan.shadows)?;
         let occlusion = self.targets.as_ref().and_then(|targets| targets.occlusion.as_ref());
         if occlusion.is_some() {

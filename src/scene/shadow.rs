@@ -178,7 +178,8 @@ fn in_perspective(index: usize, light: &Light, scene: Sphere, resolution_px: u32
         _ => return None,
     };
     let far_m = (distance_m + scene.radius).min(light.range_m.unwrap_or(f32::INFINITY));
-    let near_m = (distance_m - scene.radius).max(far_m * NEAR_SHARE);
+    // Along the axis of a cone that points aside, what lies at its rim is nearer than straight ahead.
+    let near_m = ((distance_m - scene.radius) * half_angle.cos()).max(far_m * NEAR_SHARE);
     let slope =
         half_angle.tan() * resolution_px as f32 / (resolution_px.saturating_sub(2 * SHADOW_BORDER_PX).max(1) as f32);
     let world_from_light =

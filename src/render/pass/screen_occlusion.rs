@@ -78,6 +78,5 @@ fn screen_occlusion_draw(frame: &Frame) -> ScreenOcclusionDraw {
         radius_m: asked.radius_m(frame.shot.radius_m),
         slices: asked.slices,
         steps: asked.steps,
-        ..Default::default()
     }
 }

@@ -65,13 +65,16 @@ impl Lists {
         let mut upload = gpu.upload();
         upload.buffer(&entries, 0, bytemuck::bytes_of(&header));
         upload.finish()?;
+        let readback = gpu.buffer(COUNT_NAME, COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
+        // A host may ask before the first frame has been drawn.
+        readback.write(0, &[0u32])?;
         Ok(Self {
             size,
             capacity,
             count: device(COUNT_NAME, COUNT_BYTES)?,
             heads: device(HEADS_NAME, head_bytes)?,
             entries,
-            readback: gpu.buffer(COUNT_NAME, COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?,
+            readback,
             has_count: false,
         })
     }

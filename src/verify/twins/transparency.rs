@@ -7,7 +7,7 @@ use crate::material::reference::transparency::{
 };
 
 /// What halves hold: subnormal ones, and the largest that is kept.
-const RADIANCE: Domain = Domain::Log(1e-9, 64512.0, &[0.0, 1e-40, 6.1e-5, 1.0, 1.00048828125, 2048.0, 64512.0]);
+const RADIANCE: Domain = Domain::Log(1e-9, 64512.0, &[0.0, 1e-40, 6.1e-5, 1.0, 1.000_488_3, 2048.0, 64512.0]);
 const REST: Domain = Domain::Choice(&[0, 1, 16, 31]);
 /// A number below the smallest normal one is zero to some devices, and not to a small power.
 const COLOR: Domain = Domain::Uniform(0.0, 1.0, &[0.0, 1e-8, 0.5, 1.0]);
