@@ -140,10 +140,10 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
     // What stands in is not filtered.
     let unfiltered = plan.stand_ins.iter().map(|_| NEAREST);
     let samplers: HashSet<Sampler> = plan.samplers.iter().copied().chain(unfiltered).collect();
-    // Its pipeline; count, heads, entries, and where they are read; the entries' header, which is uploaded by itself.
+    // Its pipeline; count, heads, entries, and where they are read; the entries' header and a count of 0, which are uploaded by themselves.
     let composes = u64::from(plan.composition.is_some());
     let staging = 1 + composes;
-    let header = composes * size_of::<TransparencyEntries>() as u64;
+    let header = composes * (size_of::<TransparencyEntries>() + size_of::<u32>()) as u64;
     let occludes = |pass: &&Pass| matches!(pass, Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur);
     // Draws over all pixels beside the tone mapping; their pipelines are not in the plan either.
     let over_pixels = composes + plan.passes.iter().filter(occludes).count() as u64;
@@ -157,7 +157,7 @@ fn first_frame_is_planned(what: &str, scene: &Scene, frame: &FrameOptions, repor
         // What strands remember from frame to frame is a buffer a coat.
         ("vkCreateBuffer", kept + per_frame.buffers + staging + plan.sways.len() as u64 + 4 * composes),
         ("vkCreateSampler", samplers.len() as u64 + u64::from(plan.shadows.is_bound)),
-        ("vkCmdCopyBuffer", kept + 2 * composes),
+        ("vkCmdCopyBuffer", kept + 3 * composes),
         ("vkCmdBeginRendering", raster),
         ("vkCmdDrawIndexed", draw_calls(scene, plan)),
         ("vkCmdDraw", 1 + over_pixels),

@@ -62,12 +62,12 @@ impl Lists {
         let device = |name, bytes| gpu.buffer(name, bytes, usage, Memory::Device);
         let entries = device(ENTRIES_NAME, entry_bytes(capacity.into()))?;
         let header = TransparencyEntries { width: size[0], capacity };
+        let readback = gpu.buffer(COUNT_NAME, COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
         let mut upload = gpu.upload();
         upload.buffer(&entries, 0, bytemuck::bytes_of(&header));
-        upload.finish()?;
-        let readback = gpu.buffer(COUNT_NAME, COUNT_BYTES, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
         // A host may ask before the first frame has been drawn.
-        readback.write(0, &[0u32])?;
+        upload.buffer(&readback, 0, &[0; COUNT_BYTES as usize]);
+        upload.finish()?;
         Ok(Self {
             size,
             capacity,
