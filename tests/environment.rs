@@ -223,7 +223,7 @@ fn directions_are_those_of_gltf_viewers() {
 
 #[test]
 fn shared_files_load() {
-    let folder = Path::new("/work/shared/assets/env");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assets/env");
     let Ok(files) = std::fs::read_dir(folder) else { return };
     for path in files.map(|file| file.unwrap().path()) {
         if path.extension().is_some_and(|ending| ending == "hdr" || ending == "exr") {
