@@ -18,9 +18,6 @@ layout(set = 0, binding = 5) uniform sampler lobe_table_sampler;
 layout(push_constant) uniform DrawBlock { ObjectDraw draw; };
 #ifdef OCCLUDED
 #include "shadow_light.glsl"
-#endif
-
-#ifdef OCCLUDED
 #extension GL_EXT_samplerless_texture_functions : require
 layout(set = 0, binding = 12) uniform texture2D screen_occlusion_map;
 #endif
@@ -35,7 +32,9 @@ LightSample light_at(uint index, vec3 position_in_world) {
     LightSource source = lights[draw.first_light + index];
     LightSample light = light_sample(source, position_in_world);
 #ifdef OCCLUDED
-    if (HAS_SHADOWS && any(greaterThan(light.irradiance, vec3(0.0)))) { light.irradiance *= shadow_transmittance(source, light.direction_in_world, position_in_world); }
+    if (HAS_SHADOWS && any(greaterThan(light.irradiance, vec3(0.0)))) {
+        light.irradiance *= shadow_transmittance(source, light.direction_in_world, position_in_world);
+    }
 #endif
     return light;
 }
@@ -56,34 +55,25 @@ vec3 environment_direction(vec3 w) {
     return environment_from_world(environment_from_world(w, own_environment_turn), frame.environment_turn);
 }
 
+vec3 harmonic(uint index, vec3 w) {
+    return frame.environment_harmonics[index].rgb * environment_sh(index, w);
+}
+
+// Mean radiance by the bands of harmonics 0 to 2, as a kernel of unit integral weights them that has these bands 1 and 2.
+// Not yet cut off at 0; w in the environment's axes.
+vec3 environment_mean(vec3 w, float band_1, float band_2) {
+    vec3 mean = harmonic(0u, w) + band_1 * (harmonic(1u, w) + harmonic(2u, w) + harmonic(3u, w));
+    return mean + band_2 * (harmonic(4u, w) + harmonic(5u, w) + harmonic(6u, w) + harmonic(7u, w) + harmonic(8u, w));
+}
+
 // Mean radiance around a direction, weighted by the cosine: what a white Lambert surface that faces it shows. Source:
 // Ramamoorthi & Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps"; band 4 is kept.
 vec3 environment_irradiance(vec3 direction_in_world) {
     vec3 w = environment_direction(direction_in_world);
-    float x = w.x;
-    float y = w.y;
-    float z = w.z;
-    float xx = x * x;
-    float yy = y * y;
-    float zz = z * z;
-    vec3 sum = frame.environment_harmonics[0].rgb * 0.282094792;
-    // Kernel over pi: 1, 2/3, 1/4, 0, -1/24.
-    sum += (2.0 / 3.0) * 0.488602512 * (frame.environment_harmonics[1].rgb * y + frame.environment_harmonics[2].rgb * z
-        + frame.environment_harmonics[3].rgb * x);
-    sum += 0.25 * (1.092548431 * (frame.environment_harmonics[4].rgb * (x * y) + frame.environment_harmonics[5].rgb * (y * z)
-            + frame.environment_harmonics[7].rgb * (x * z))
-        + frame.environment_harmonics[6].rgb * (0.315391565 * (3.0 * zz - 1.0))
-        + frame.environment_harmonics[8].rgb * (0.546274215 * (xx - yy)));
-    vec3 band = frame.environment_harmonics[16].rgb * (2.503342942 * x * y * (xx - yy))
-        + frame.environment_harmonics[17].rgb * (1.770130769 * y * z * (3.0 * xx - yy))
-        + frame.environment_harmonics[18].rgb * (0.946174696 * x * y * (7.0 * zz - 1.0))
-        + frame.environment_harmonics[19].rgb * (0.669046544 * y * z * (7.0 * zz - 3.0))
-        + frame.environment_harmonics[20].rgb * (0.105785547 * (35.0 * zz * zz - 30.0 * zz + 3.0))
-        + frame.environment_harmonics[21].rgb * (0.669046544 * x * z * (7.0 * zz - 3.0))
-        + frame.environment_harmonics[22].rgb * (0.473087348 * (xx - yy) * (7.0 * zz - 1.0))
-        + frame.environment_harmonics[23].rgb * (1.770130769 * x * z * (xx - 3.0 * yy))
-        + frame.environment_harmonics[24].rgb * (0.625835735 * (xx * (xx - 3.0 * yy) - yy * (3.0 * xx - yy)));
-    return max(sum - band / 24.0, vec3(0.0));
+    vec3 band = harmonic(16u, w) + harmonic(17u, w) + harmonic(18u, w) + harmonic(19u, w) + harmonic(20u, w)
+        + harmonic(21u, w) + harmonic(22u, w) + harmonic(23u, w) + harmonic(24u, w);
+    vec3 mean = environment_mean(w, environment_cosine_band(1u), environment_cosine_band(2u));
+    return max(mean + environment_cosine_band(4u) * band, vec3(0.0));
 }
 
 // Radiance around a direction, spread as a GGX lobe of that perceptual roughness spreads it that is seen from the front.

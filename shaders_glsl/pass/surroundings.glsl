@@ -22,16 +22,19 @@ vec3 through_crevice(SurfaceFragment f, float mu_v, float roughness, vec3 reflec
     return occlusion_bounced(occlusion_of_lobe(mu_v, roughness, f.occlusion), reflectance);
 }
 
-// By a diffuse lobe of that albedo.
-vec3 diffuse_light(SurfaceFragment f, vec3 albedo) {
-    vec3 light = environment_irradiance(f.world_from_tangent[2]);
+vec3 diffuse_light_about(SurfaceFragment f, vec3 normal_in_world, vec3 albedo) {
+    vec3 light = environment_irradiance(normal_in_world);
     return f.occlusion >= 1.0 ? light : light * occlusion_bounced(f.occlusion, albedo);
 }
 
-// By a diffuse lobe of that albedo on the far side.
+// By a diffuse lobe of that albedo.
+vec3 diffuse_light(SurfaceFragment f, vec3 albedo) {
+    return diffuse_light_about(f, f.world_from_tangent[2], albedo);
+}
+
+// By one on the far side.
 vec3 diffuse_light_behind(SurfaceFragment f, vec3 albedo) {
-    vec3 light = environment_irradiance(-f.world_from_tangent[2]);
-    return f.occlusion >= 1.0 ? light : light * occlusion_bounced(f.occlusion, albedo);
+    return diffuse_light_about(f, -f.world_from_tangent[2], albedo);
 }
 
 vec3 lobe_light(SurfaceFragment f, mat3 world_from_tangent, vec3 v, vec4 entry) {

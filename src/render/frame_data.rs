@@ -93,10 +93,11 @@ impl FrameData {
                 None
             },
             objects: filled(gpu, "objects", vk::BufferUsageFlags::STORAGE_BUFFER, &objects)?,
-            previous: match &shot.previous {
-                Some(previous) => Some(previous_buffers(gpu, scene, previous, size)?),
-                None => None,
-            },
+            previous: shot
+                .previous
+                .as_ref()
+                .map(|previous| previous_buffers(gpu, scene, previous, size))
+                .transpose()?,
             shared_groups: HashMap::new(),
             coat_groups: HashMap::new(),
         };

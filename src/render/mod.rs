@@ -179,9 +179,7 @@ impl Shot {
             pose,
         })
     }
-}
 
-impl Shot {
     /// What the camera sees of the surroundings.
     fn backdrop(&self, size: [u32; 2]) -> Backdrop {
         Backdrop::new(&self.lighting.surroundings, &self.camera, size)

@@ -113,6 +113,11 @@ impl FrameOptions {
         self.aovs.any() || self.screen_occlusion.is_some() || self.everything
     }
 
+    /// Whether what a draw shows goes into the lists of pixels, `blend` where it blends.
+    pub(super) fn lists(&self, blend: bool) -> bool {
+        blend && self.transparency != Transparency::Sorted
+    }
+
     /// Whether strands of this coat lag behind: they have inertia, and something can move them.
     pub(super) fn sways(&self, fur: &Fur) -> bool {
         let moves = fur.inertia > 0.0 && self.animation.is_some();

@@ -165,7 +165,7 @@ impl PipelineSpec {
         ];
         fragment_defines.extend(cloth.into_iter().flat_map(|cloth| cloth.defines).map(|define| (*define, true)));
         fragment_defines.push(("OCCLUDED", lit.is_occluded() && !unlit));
-        fragment_defines.push(("LIST", blend && options.transparency != Transparency::Sorted));
+        fragment_defines.push(("LIST", options.lists(blend)));
         let mut constants = vec![("ALPHA_MODE", alpha_constant(standard.alpha_mode)), ("SAMPLE_COUNT", options.msaa)];
         if !unlit {
             constants.push(("DOUBLE_SIDED", standard.double_sided.into()));
@@ -191,7 +191,6 @@ impl PipelineSpec {
     pub fn fur(fur: &Fur, standard: &Standard, primitive: &Primitive, lit: Lit, options: &FrameOptions) -> Self {
         let Shells { sampling, alpha, submission, order } = options.shells;
         let blend = fur.blend == Blend::Blend || order == ShellOrder::Blended;
-        let lists = blend && options.transparency != Transparency::Sorted;
         let all_maps = fur_maps(fur, standard);
         // A distribution map is another way to place strands, so nothing can stand in for it.
         let is_sampled =
@@ -219,7 +218,12 @@ impl PipelineSpec {
             vertex: permutation("fur.vert", &vertex_defines),
             fragment: permutation(
                 "fur.frag",
-                &[("MAPS", has_maps), ("COLOR", color), ("OCCLUDED", lit.is_occluded()), ("LIST", lists)],
+                &[
+                    ("MAPS", has_maps),
+                    ("COLOR", color),
+                    ("OCCLUDED", lit.is_occluded()),
+                    ("LIST", options.lists(blend)),
+                ],
             ),
             constants,
             topology: Topology::Triangles,
@@ -279,12 +283,16 @@ impl PipelineSpec {
                 (permutation("standard.vert", &defines), permutation("guide.frag", &defines))
             }
         };
-        let stages = [shader(&vertex), shader(&fragment)];
-        let is_known = |name: &str| stages.iter().any(|stage| stage.constants.iter().any(|known| known.name == name));
-        let at_one_sample = |(name, value): (&'static str, u32)| (name, if name == "SAMPLE_COUNT" { 1 } else { value });
-        let constants = self.constants.iter().filter(|(name, _)| is_known(name)).copied().map(at_one_sample).collect();
+        let constants = self.constants_at_one_sample([&vertex, &fragment]);
         let (depth, color_format) = (DepthUse::TestAndWrite, guide_format(motion));
         Some(Self { vertex, fragment, constants, blend: false, depth, samples: 1, color_format, ..*self })
+    }
+
+    /// Those of its constants that these shaders have, too, for one sample a pixel.
+    fn constants_at_one_sample(&self, shaders: [&str; 2]) -> Vec<(&'static str, u32)> {
+        let is_known = is_known_by(shaders);
+        let known = self.constants.iter().filter(|(name, _)| is_known(name));
+        known.map(|&(name, value)| (name, if name == "SAMPLE_COUNT" { 1 } else { value })).collect()
     }
 
     /// The pipelines of screen-space occlusion: its slices, and their mean.
@@ -330,11 +338,9 @@ impl PipelineSpec {
                 (vertex, permutation("shadow.frag", &[uv, color, layers]))
             }
         };
-        let is_known = is_known_by([&vertex, &fragment]);
-        // A texel of a map is one sample.
-        let of_texel = |(name, value): (&'static str, u32)| (name, if name == "SAMPLE_COUNT" { 1 } else { value });
         Self {
-            constants: self.constants.iter().filter(|(name, _)| is_known(name)).copied().map(of_texel).collect(),
+            // A texel of a map is one sample.
+            constants: self.constants_at_one_sample([&vertex, &fragment]),
             vertex,
             fragment,
             topology: self.topology,

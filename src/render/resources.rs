@@ -17,7 +17,6 @@ use crate::gpu::{
 };
 use crate::scene::Scene;
 use ash::vk;
-use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Vulkan has no empty buffers.
@@ -269,7 +268,7 @@ impl Resources {
                 (width, height) = ((width / 2).max(1), (height / 2).max(1));
             }
             let format = if texture.srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM };
-            let image = filled_image(&self.gpu, upload, &source.name, [width, height], format, &levels)?;
+            let image = filled_image(&self.gpu, upload, &source.name, [width, height], format, false, &levels)?;
             self.images.insert(texture, image);
         }
         for sampler in &plan.samplers {
@@ -287,8 +286,9 @@ impl Resources {
         for &stand_in in &plan.stand_ins {
             if !self.stand_ins.contains_key(&stand_in) {
                 let texel = stand_in.texel();
-                let (name, levels) = (format!("{stand_in:?}"), [Cow::Borrowed(bytemuck::bytes_of(&texel))]);
-                let image = filled_image(&self.gpu, upload, &name, [1, 1], vk::Format::R32G32B32A32_SFLOAT, &levels)?;
+                let (name, levels) = (format!("{stand_in:?}"), [bytemuck::bytes_of(&texel)]);
+                let format = vk::Format::R32G32B32A32_SFLOAT;
+                let image = filled_image(&self.gpu, upload, &name, [1, 1], format, false, &levels)?;
                 self.stand_ins.insert(stand_in, image);
             }
             self.make_sampler(&STAND_IN_SAMPLER)?;
@@ -299,8 +299,7 @@ impl Resources {
     fn prepare_tables(&mut self, upload: &mut Upload, plan: &Plan) -> Result<(), GpuError> {
         for (name, table) in &plan.tables {
             if !self.tables.contains_key(name) {
-                let levels = [Cow::Borrowed(table.texels)];
-                let image = filled_image(&self.gpu, upload, name, table.size, Table::FORMAT, &levels)?;
+                let image = filled_image(&self.gpu, upload, name, table.size, Table::FORMAT, false, &[table.texels])?;
                 self.tables.insert(name, image);
             }
             self.make_sampler(&TABLE_SAMPLER)?;
@@ -369,13 +368,15 @@ fn holds(buffer: &Buffer, bytes: u64) -> bool {
     buffer.bytes() == bytes.max(LEAST_BYTES)
 }
 
-fn filled_image(
+/// An image for sampling, of as many levels as are given; of a cube each has its six faces.
+pub(super) fn filled_image(
     gpu: &Gpu,
     upload: &mut Upload,
     name: &str,
     size: [u32; 2],
     format: vk::Format,
-    levels: &[Cow<[u8]>],
+    is_cube: bool,
+    levels: &[impl AsRef<[u8]>],
 ) -> Result<Image, GpuError> {
     let image = gpu.image(&ImageDesc {
         name,
@@ -384,9 +385,9 @@ fn filled_image(
         mip_levels: levels.len() as u32,
         samples: 1,
         usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-        is_cube: false,
+        is_cube,
     })?;
-    let levels: Vec<&[u8]> = levels.iter().map(|level| &level[..]).collect();
+    let levels: Vec<&[u8]> = levels.iter().map(AsRef::as_ref).collect();
     upload.image(&image, &levels);
     Ok(image)
 }

@@ -69,26 +69,16 @@ pub fn feature(gpu: &Gpu, effort: &Effort, progress: &mut Progress) -> Result<Fe
         reference_noise: 0.0,
         points,
         notes: vec![format!(
-            "a frame costs the same with every setting; the studio has 512 x 256 texels, which faces above {} px do not show",
-            128
+            "a frame costs the same with every setting; the studio has {} x {} texels, which faces above {} px do not show",
+            studio.size[0],
+            studio.size[1],
+            studio.size[0] / 4
         )],
     })
 }
 
 fn point(camera: &'static str, knob: (&'static str, u32), ms: Spread) -> Point {
-    Point {
-        method: "prefiltered (default)",
-        is_classic: false,
-        knob,
-        camera,
-        ms,
-        wall_ms: ms,
-        relmse: 0.0,
-        flip: None,
-        max_error: None,
-        is_on_front: false,
-        is_at_floor: false,
-    }
+    Point::new("prefiltered (default)", knob, camera, ms)
 }
 
 /// What is made, and the milliseconds of making it; the first time warms up.

@@ -3,6 +3,7 @@
 use super::case::Cases;
 use super::dynamics::{self, Integrator, STRAND_KINDS, STRANDS};
 use super::headline::Headline;
+use super::metric::PictureError;
 use super::question::{Method, Question};
 use super::statistics::{Spread, pareto_front};
 use super::sweep::{FrameMs, Measurement, Recipe, Sweep};
@@ -50,6 +51,41 @@ pub struct Point {
     pub is_on_front: bool,
     /// The reference's own noise is more than a tenth of the error: the true error may be smaller.
     pub is_at_floor: bool,
+}
+
+impl Point {
+    /// Without an error yet, taken by one clock.
+    pub fn new(method: &'static str, knob: (&'static str, u32), camera: &'static str, ms: Spread) -> Self {
+        Self {
+            method,
+            is_classic: false,
+            knob,
+            camera,
+            ms,
+            wall_ms: ms,
+            relmse: 0.0,
+            flip: None,
+            max_error: None,
+            is_on_front: false,
+            is_at_floor: false,
+        }
+    }
+
+    /// Of frames whose picture has that error.
+    pub fn of_frames(
+        method: &'static str,
+        knob: (&'static str, u32),
+        camera: &'static str,
+        (frames, clock): (&[FrameMs], Clock),
+        error: PictureError,
+    ) -> Self {
+        Self {
+            wall_ms: spread_of(frames, Clock::Wall),
+            relmse: error.relmse,
+            flip: Some(error.flip),
+            ..Self::new(method, knob, camera, spread_of(frames, clock))
+        }
+    }
 }
 
 /// The answer to one question.
@@ -146,7 +182,7 @@ pub fn spread(measurement: &Measurement, clock: Clock) -> Spread {
 }
 
 /// Milliseconds of frames by a clock.
-pub fn spread_of(frames: &[FrameMs], clock: Clock) -> Spread {
+fn spread_of(frames: &[FrameMs], clock: Clock) -> Spread {
     let ms = |frame: &FrameMs| match clock {
         Clock::Device => frame.passes.unwrap_or(frame.wall),
         Clock::Wall => frame.wall,
@@ -160,18 +196,11 @@ fn picture_feature(question: &Question, sweep: &Sweep, effort: &Effort, clock: C
     for (method, layers, view) in points(question) {
         let Some(measurement) = sweep.measurements.get(&Recipe::new(method, layers, view)) else { continue };
         let Some(error) = measurement.error else { continue };
+        let frames = (&measurement.frames[..], clock);
         all.push(Point {
-            method: method.name,
             is_classic: method.is_classic,
-            knob: ("layers", layers),
-            camera: view.name(),
-            ms: spread(measurement, clock),
-            wall_ms: spread(measurement, Clock::Wall),
-            relmse: error.relmse,
-            flip: Some(error.flip),
-            max_error: None,
-            is_on_front: false,
             is_at_floor: noise_of(view) > NOISE_SHARE * error.relmse,
+            ..Point::of_frames(method.name, ("layers", layers), view.name(), frames, error)
         });
     }
     mark_fronts(&mut all);
@@ -220,17 +249,10 @@ fn dynamics_feature(effort: &Effort) -> Feature {
             }
         }
         points.extend(kept.into_iter().map(|(integrator, steps_hz, error, times)| Point {
-            method: integrator.name(),
             is_classic: integrator.is_classic(),
-            knob: ("steps_hz", steps_hz),
-            camera: strand.name,
-            ms: Spread::of(&times),
-            wall_ms: Spread::of(&times),
             relmse: error.relmse,
-            flip: None,
             max_error: Some(error.max),
-            is_on_front: false,
-            is_at_floor: false,
+            ..Point::new(integrator.name(), ("steps_hz", steps_hz), strand.name, Spread::of(&times))
         }));
     }
     mark_fronts(&mut points);

@@ -5,6 +5,7 @@ use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool};
 
 use crate::material::reference::tonemap;
 use crate::math::srgb_from_linear;
+use crate::render::Picture;
 
 /// Keeps dark pixels from counting without bound: the square of a tenth of the white level.
 const FLOOR: f64 = 0.01;
@@ -16,6 +17,13 @@ pub struct Radiance {
     pub size: [u32; 2],
     /// One value a pixel.
     pub pixels: Vec<DVec4>,
+}
+
+impl Radiance {
+    /// Of a picture that kept its radiance.
+    pub fn of(picture: &Picture) -> Self {
+        Self { size: picture.size, pixels: picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect() }
+    }
 }
 
 /// Error of a picture.

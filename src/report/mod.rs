@@ -156,6 +156,6 @@ pub fn measure(
     let mut report = Report::new(gpu.info(), questions, &cases, &sweep, effort);
     report.features.push(environment::feature(gpu, effort, progress)?);
     report.features.push(transparency::feature(gpu, effort, report.clock, progress)?);
-    report.features.push(shadow::feature(gpu, effort, progress)?);
+    report.features.push(shadow::feature(gpu, effort, report.clock, progress)?);
     Ok(report)
 }

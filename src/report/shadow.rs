@@ -1,9 +1,9 @@
 //! Shadows of lights: error and time by the resolution of the maps and the radius of their filter, against shadows that
 //! are computed by rays.
 
-use super::feature::{Feature, Point, mark_fronts};
+use super::feature::{Clock, Feature, Point, mark_fronts};
 use super::metric::{Radiance, picture_error};
-use super::statistics::Spread;
+use super::sweep::FrameMs;
 use super::{Effort, Progress, ReportError};
 use crate::asset::procedural::{plane, sphere};
 use crate::asset::{Asset, AssetScene, Material, Mesh, Node, Transform};
@@ -27,7 +27,7 @@ const CLEARANCE_M: f64 = 1e-4;
 ///
 /// # Errors
 /// When the device fails.
-pub fn feature(gpu: &Gpu, effort: &Effort, progress: &mut Progress) -> Result<Feature, ReportError> {
+pub fn feature(gpu: &Gpu, effort: &Effort, clock: Clock, progress: &mut Progress) -> Result<Feature, ReportError> {
     let scene = stage()?;
     let mut renderer = Renderer::with_gpu(gpu.clone())?;
     let none = Shadows { are_cast: false, ..Shadows::default() };
@@ -48,26 +48,13 @@ pub fn feature(gpu: &Gpu, effort: &Effort, progress: &mut Progress) -> Result<Fe
             progress("shadow", points.len(), METHODS.len() * RESOLUTIONS_PX.len());
             let options = frame(effort, Shadows { resolution_px, filter_px, ..Shadows::default() });
             let error = picture_error(&picture(&mut renderer, &scene, &options)?, &reference, DVec3::ZERO);
-            let (mut ms, mut wall_ms) = (Vec::new(), Vec::new());
+            let mut frames = Vec::new();
             for _ in 0..effort.rounds {
                 let (_, report) = renderer.render_reported(&scene, &options, false)?;
-                let passes = report.passes.iter().filter(|pass| pass.name != Pass::Tonemap.name());
-                ms.push(passes.map(|pass| pass.gpu_ms).sum::<Option<f64>>().unwrap_or(report.frame_ms));
-                wall_ms.push(report.frame_ms);
+                frames.push(FrameMs::of(&report, &[Pass::Shadow, Pass::Opaque]));
             }
-            points.push(Point {
-                method,
-                is_classic: false,
-                knob: ("resolution_px", resolution_px),
-                camera: "balls",
-                ms: Spread::of(&ms),
-                wall_ms: Spread::of(&wall_ms),
-                relmse: error.relmse,
-                flip: Some(error.flip),
-                max_error: None,
-                is_on_front: false,
-                is_at_floor: false,
-            });
+            let knob = ("resolution_px", resolution_px);
+            points.push(Point::of_frames(method, knob, "balls", (&frames, clock), error));
         }
     }
     mark_fronts(&mut points);
@@ -108,8 +95,7 @@ fn frame(effort: &Effort, shadows: Shadows) -> FrameOptions {
 
 fn picture(renderer: &mut Renderer, scene: &Scene, options: &FrameOptions) -> Result<Radiance, ReportError> {
     let (picture, _) = renderer.render_reported(scene, options, true)?;
-    let pixels = picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect();
-    Ok(Radiance { size: picture.size, pixels })
+    Ok(Radiance::of(&picture))
 }
 
 /// Whether nothing stands between the light and what the middle of a pixel shows.

@@ -211,10 +211,7 @@ fn error_of(
     let mut frames = Vec::new();
     for options in recipe.frames(cases, effort) {
         let (picture, _) = renderer.render_reported(cases.scene(recipe.view.stage()), &options, true)?;
-        frames.push(Radiance {
-            size: picture.size,
-            pixels: picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect(),
-        });
+        frames.push(Radiance::of(&picture));
     }
     let Some(reference) = reference else { return Ok(None) };
     Ok(match (&frames[..], &reference.frames[..]) {

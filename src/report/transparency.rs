@@ -1,7 +1,7 @@
 //! Ways to lay over each other what blends: sorted a pixel, weighted, sorted by objects, against what a compositor in
 //! double precision makes of the same triangles.
 
-use super::feature::{Clock, Feature, Point, mark_fronts, spread_of};
+use super::feature::{Clock, Feature, Point, mark_fronts};
 use super::metric::{Radiance, picture_error};
 use super::sweep::FrameMs;
 use super::{Effort, Progress, ReportError};
@@ -47,8 +47,7 @@ pub fn feature(gpu: &Gpu, effort: &Effort, clock: Clock, progress: &mut Progress
                 // A renderer of its own: what another method drew must not have grown its lists.
                 let mut renderer = Renderer::with_gpu(gpu.clone())?;
                 let (picture, _) = renderer.render_reported(&scene, &options, true)?;
-                let pixels = picture.radiance.iter().map(|pixel| pixel.as_dvec4()).collect();
-                let error = picture_error(&Radiance { size: options.size, pixels }, &truth, DVec3::ZERO);
+                let error = picture_error(&Radiance::of(&picture), &truth, DVec3::ZERO);
                 stage_points.push((method, is_classic, msaa, error, renderer, options, Vec::new()));
             }
         }
@@ -59,17 +58,8 @@ pub fn feature(gpu: &Gpu, effort: &Effort, clock: Clock, progress: &mut Progress
             }
         }
         points.extend(stage_points.into_iter().map(|(method, is_classic, msaa, error, _, _, frames)| Point {
-            method,
             is_classic,
-            knob: ("samples", msaa),
-            camera: name,
-            ms: spread_of(&frames, clock),
-            wall_ms: spread_of(&frames, Clock::Wall),
-            relmse: error.relmse,
-            flip: Some(error.flip),
-            max_error: None,
-            is_on_front: false,
-            is_at_floor: false,
+            ..Point::of_frames(method, ("samples", msaa), name, (&frames, clock), error)
         }));
     }
     mark_fronts(&mut points);

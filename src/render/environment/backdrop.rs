@@ -1,6 +1,6 @@
 //! What stands behind the scene where nothing was drawn: the same for the picture on the device and for the host's.
 
-use super::maps::{FORMAT, sampled_image};
+use super::maps::{FORMAT, is_same, sampled_image};
 use super::prepare::{LARGEST_TEXEL, halves};
 use crate::asset::Environment;
 use crate::gpu::{Gpu, GpuError, Image, Sampler, SamplerDesc, format_bytes};
@@ -81,7 +81,7 @@ impl BackdropImage {
 
     /// Whether it is that environment's.
     pub fn is_of(&self, environment: &Arc<Environment>) -> bool {
-        Arc::ptr_eq(&self.environment, environment) || *self.environment == **environment
+        is_same(&self.environment, environment)
     }
 }
 

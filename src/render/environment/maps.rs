@@ -2,7 +2,8 @@
 
 use super::{EnvironmentQuality, HARMONICS, PreparedEnvironment, prepare_environment, prepare_lobes};
 use crate::asset::Environment;
-use crate::gpu::{Gpu, GpuError, Image, ImageDesc, Sampler, SamplerDesc, format_bytes, level_size};
+use crate::gpu::{Gpu, GpuError, Image, Sampler, SamplerDesc, format_bytes, level_size};
+use crate::render::resources::filled_image;
 use ash::vk;
 use glam::Vec3;
 use std::sync::Arc;
@@ -39,7 +40,6 @@ impl EnvironmentMaps {
         let prepared = prepare_environment(gpu, environment, &quality)?;
         let last_level = prepared.last_level();
         let PreparedEnvironment { face_px, levels, scale, harmonics } = prepared;
-        let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
         let map = sampled_image(gpu, MAP_NAME, [face_px; 2], true, &levels)?;
         let sampler = gpu.sampler(&SamplerDesc { wrap: CLAMPED, ..SamplerDesc::default() })?;
         Ok(Self { environment: environment.clone(), quality, map, sampler, scale, last_level, harmonics })
@@ -47,7 +47,7 @@ impl EnvironmentMaps {
 
     /// Whether they are those of that environment.
     pub fn are_of(&self, environment: &Arc<Environment>, quality: EnvironmentQuality) -> bool {
-        self.quality == quality && (Arc::ptr_eq(&self.environment, environment) || *self.environment == **environment)
+        self.quality == quality && is_same(&self.environment, environment)
     }
 
     /// Mean radiance of all directions.
@@ -97,6 +97,11 @@ pub fn environment_bytes(
     [(MAP_NAME, cube)].into_iter().chain(table)
 }
 
+/// Whether two stand for the same light; texels are compared only where they are not shared.
+pub(super) fn is_same(one: &Arc<Environment>, other: &Arc<Environment>) -> bool {
+    Arc::ptr_eq(one, other) || one == other
+}
+
 const CLAMPED: [vk::SamplerAddressMode; 2] = [vk::SamplerAddressMode::CLAMP_TO_EDGE; 2];
 
 pub(super) fn sampled_image(
@@ -104,19 +109,10 @@ pub(super) fn sampled_image(
     name: &str,
     size: [u32; 2],
     is_cube: bool,
-    levels: &[&[u8]],
+    levels: &[impl AsRef<[u8]>],
 ) -> Result<Image, GpuError> {
-    let image = gpu.image(&ImageDesc {
-        name,
-        size,
-        format: FORMAT,
-        mip_levels: levels.len() as u32,
-        samples: 1,
-        usage: vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-        is_cube,
-    })?;
     let mut upload = gpu.upload();
-    upload.image(&image, levels);
+    let image = filled_image(gpu, &mut upload, name, size, FORMAT, is_cube, levels)?;
     upload.finish()?;
     Ok(image)
 }

@@ -36,14 +36,7 @@ pub fn claims() -> Vec<Claim> {
             Input { corners: vec![0.0, 45.0, 83.0, 90.0], ..Input::turn("along_to_eye_deg") },
         ]
     };
-    let claim = |property, limit, inputs, value| Claim {
-        material: "anisotropic lobe",
-        property,
-        classic: false,
-        limit: Some(limit),
-        inputs,
-        value,
-    };
+    let claim = |property, limit, inputs, value| Claim::ours("anisotropic lobe", property, limit, inputs, value);
     vec![
         claim(
             "directional albedo over a white base",

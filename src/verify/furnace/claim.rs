@@ -85,6 +85,17 @@ impl std::fmt::Debug for Claim {
 }
 
 impl Claim {
+    /// That a formula of ours never gives more than `limit`.
+    pub fn ours(
+        material: &'static str,
+        property: &'static str,
+        limit: f64,
+        inputs: Vec<Input>,
+        value: Measure,
+    ) -> Self {
+        Self { material, property, classic: false, limit: Some(limit), inputs, value }
+    }
+
     /// The worst value over all corners and `random` seeded points. A value that is not finite breaks every promise.
     pub fn judge(&self, random: usize) -> Property {
         let corners: usize = self.inputs.iter().map(|input| input.corners.len()).product();

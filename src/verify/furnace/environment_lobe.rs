@@ -9,19 +9,15 @@ use glam::DVec3;
 
 /// Everything that is promised of them.
 pub fn claims() -> Vec<Claim> {
-    let claim = |property, limit, value: fn(&[f64]) -> f64| Claim {
-        material: "anisotropic taps",
-        property,
-        classic: false,
-        limit: Some(limit),
-        inputs: vec![
-            Input::between("roughness", (0.0, 1.0)),
-            Input::between("anisotropy", (-1.0, 1.0)),
-            Input::between("mirror", (-0.2, 1.0)),
-            Input::cosine("cosine_to_eye"),
-            Input::turn("along_to_eye_deg"),
-        ],
-        value: Box::new(value),
+    let inputs = [
+        Input::between("roughness", (0.0, 1.0)),
+        Input::between("anisotropy", (-1.0, 1.0)),
+        Input::between("mirror", (-0.2, 1.0)),
+        Input::cosine("cosine_to_eye"),
+        Input::turn("along_to_eye_deg"),
+    ];
+    let claim = |property, limit, value: fn(&[f64]) -> f64| {
+        Claim::ours("anisotropic taps", property, limit, inputs.to_vec(), Box::new(value))
     };
     vec![
         claim("share of a constant environment, off 1 by", 1e-12, |x| {

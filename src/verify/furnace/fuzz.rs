@@ -55,13 +55,8 @@ pub fn claims() -> Vec<Claim> {
 
 fn of_family(material: &'static str, made: Made, inputs: Vec<Input>) -> Vec<Claim> {
     let count = inputs.len();
-    let claim = |property, limit, more: &[Input], value| Claim {
-        material,
-        property,
-        classic: false,
-        limit: Some(limit),
-        inputs: [&inputs, more].concat(),
-        value,
+    let claim = |property, limit, more: &[Input], value| {
+        Claim::ours(material, property, limit, [&inputs, more].concat(), value)
     };
     let light = [Input::signed_cosine("cosine_to_light"), Input::turn("eye_to_light_deg")];
     let mut claims = vec![

@@ -38,14 +38,7 @@ pub fn claims() -> Vec<Claim> {
     };
     let width = || Input { grazing: true, ..Input::between("pixel_width", (1e-2, 20.0)) };
     let lit = with(vec![Input::signed_cosine("cosine_to_light"), Input::turn("eye_to_light_deg"), width()]);
-    let claim = |property, inputs, value| Claim {
-        material: "glint",
-        property,
-        classic: false,
-        limit: Some(ALBEDO_LIMIT),
-        inputs,
-        value,
-    };
+    let claim = |property, inputs, value| Claim::ours("glint", property, ALBEDO_LIMIT, inputs, value);
     let mut claims = vec![
         claim("directional albedo", with(Vec::new()), Box::new(|x| albedo(&covered(x), x[3]))),
         claim(

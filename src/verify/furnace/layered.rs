@@ -95,14 +95,7 @@ fn stack_albedo(stack: &Stack<'_>, v: DVec3) -> f64 {
 
 /// Everything that is promised of layered materials.
 pub fn claims() -> Vec<Claim> {
-    let claim = |property, limit, inputs, value: Measure| Claim {
-        material: "layered",
-        property,
-        classic: false,
-        limit: Some(limit),
-        inputs,
-        value,
-    };
+    let claim = |property, limit, inputs, value: Measure| Claim::ours("layered", property, limit, inputs, value);
     let off = |there: f64, back: f64| (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE);
     let with_light = |mut inputs: Vec<Input>| {
         inputs.extend([Input::cosine("cosine_to_light"), Input::turn("streak_to_light_deg")]);

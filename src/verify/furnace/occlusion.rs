@@ -19,13 +19,8 @@ fn of(
     share: impl Fn(&[f64], f64) -> f64 + Copy + Send + Sync + 'static,
 ) -> Vec<Claim> {
     let count = inputs.len();
-    let claim = |property, limit, more: &[Input], value| Claim {
-        material,
-        property,
-        classic: false,
-        limit: Some(limit),
-        inputs: [&inputs, more].concat(),
-        value,
+    let claim = |property, limit, more: &[Input], value| {
+        Claim::ours(material, property, limit, [&inputs, more].concat(), value)
     };
     let open = Input::between("occlusion", (0.0, 1.0));
     let more_open = Input { name: "more_open_by", ..open.clone() };
