@@ -2,7 +2,8 @@
 //! the host mirrors of their blocks that `src/shader` includes.
 //!
 //! Environment: `VAIR_GLSLANG` names the compiler (default `glslangValidator` on the PATH), `VAIR_SHADER_DEBUG` keeps
-//! source and line information in the SPIR-V for debuggers.
+//! names, source and line information in the SPIR-V for debuggers, `VAIR_NO_SHADERS` builds without a compiler and without
+//! shaders, as docs.rs does (`DOCS_RS`).
 
 #[path = "build/compile.rs"]
 mod compile;
@@ -16,8 +17,14 @@ mod function_shader;
 mod include;
 #[path = "build/interface.rs"]
 mod interface;
+#[path = "build/key.rs"]
+mod key;
 #[path = "build/layout.rs"]
 mod layout;
+#[path = "build/pack.rs"]
+mod pack;
+#[path = "build/parallel.rs"]
+mod parallel;
 #[path = "build/permutation.rs"]
 mod permutation;
 #[path = "build/reflect.rs"]
@@ -30,16 +37,20 @@ mod table;
 use interface::Interface;
 use permutation::Permutation;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One permutation, compiled and reflected.
-type Built = (Permutation, Vec<u32>, Interface);
+struct Built {
+    permutation: Permutation,
+    /// What the program carries.
+    spirv: Vec<u32>,
+    interface: Interface,
+}
 
 fn main() {
     for input in ["shaders_glsl", "build.rs", "build"] {
         println!("cargo::rerun-if-changed={input}");
     }
-    for variable in ["VAIR_GLSLANG", "VAIR_SHADER_DEBUG"] {
+    for variable in ["DOCS_RS", "VAIR_GLSLANG", "VAIR_NO_SHADERS", "VAIR_SHADER_DEBUG"] {
         println!("cargo::rerun-if-env-changed={variable}");
     }
     // Cargo shows each `cargo::error` on a line of its own, without the noise of a panicking build script.
@@ -56,26 +67,41 @@ fn build() -> Result<(), Vec<String>> {
     let root = Path::new("shaders_glsl");
     let list = root.join("permutations");
     let text = std::fs::read_to_string(&list).map_err(|error| vec![format!("{}: {error}", list.display())])?;
-    let permutations = permutation::parse(&text)?;
+    let list = permutation::parse(&text)?;
+    let keys = key::Keys::new(&list).map_err(|error| vec![error])?;
+    write(&out.join("shader_key.rs"), &keys.generate())?;
 
     let sources = Sources { folder: root.join("pass"), root, out: out.to_owned() };
-    let built = build_all(permutations, &sources)?;
-    interface::check(built.iter().map(|(permutation, _, interface)| (permutation, interface)))?;
-    let comments = docs::Comments::read(root).map_err(|error| vec![error])?;
-    let structs = built.iter().flat_map(|(permutation, _, interface)| {
-        interface.structs.iter().map(|layout| (permutation.name(), layout.clone()))
-    });
-    write(&out.join("shader_layout.rs"), &layout::generate(structs, &comments)?)?;
-    write(&out.join("shader_table.rs"), &table::generate(&built))?;
+    let mut built = build_all(list.permutations, &sources)?;
+    let layout = if has_compiler() {
+        interface::check(built.iter().map(|shader| (&shader.permutation, &shader.interface)))?;
+        let comments = docs::Comments::read(root).map_err(|error| vec![error])?;
+        let structs = |Built { permutation, interface, .. }: &Built| {
+            let named = |layout: &interface::Struct| (permutation.name(), layout.clone());
+            interface.structs.iter().map(named).collect::<Vec<_>>()
+        };
+        layout::generate(built.iter().flat_map(structs), &comments)?
+    } else {
+        include_str!("build/shader_layout.rs").to_owned()
+    };
+    write(&out.join("shader_layout.rs"), &layout)?;
+    built.sort_by_key(|shader| keys.sort_key(&shader.permutation));
+    write(&out.join("shader_table.rs"), &table::generate(&built, &keys, out)?)?;
     // Only what judges the renderer evaluates functions one by one; an engine that embeds it carries none of this.
     if std::env::var_os("CARGO_FEATURE_MEASURE").is_some() {
         let library = function::Library::read(root)?;
         let folder = out.join("functions");
         let permutations = function_shader::write(&library, &folder)?;
-        let shaders = build_all(permutations, &Sources { folder: folder.clone(), root, out: folder })?;
-        write(&out.join("functions/shader_functions.rs"), &function_shader::table(&library, &shaders)?)?;
+        let shaders = build_all(permutations, &Sources { folder: folder.clone(), root, out: folder.clone() })?;
+        write(&folder.join("shader_functions.rs"), &function_shader::table(&library, &shaders, &folder)?)?;
     }
     Ok(())
+}
+
+/// Whether shaders are compiled at all. Without, everything is made that documentation and type checks need: the shaders
+/// are empty, and the host structs are those that `build/shader_layout.rs` keeps.
+fn has_compiler() -> bool {
+    ["DOCS_RS", "VAIR_NO_SHADERS"].iter().all(|variable| std::env::var_os(variable).is_none())
 }
 
 /// Where shaders are read and where what is made of them goes.
@@ -92,37 +118,24 @@ fn build_all(permutations: Vec<Permutation>, sources: &Sources) -> Result<Vec<Bu
     if permutations.is_empty() {
         return Ok(Vec::new());
     }
-    let compiler = compile::Compiler::find().map_err(|error| vec![error])?;
-    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(permutations.len());
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut done = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(permutation) = permutations.get(index) else { break };
-            let build = || {
-                let glsl = include::expand(permutation, &sources.folder, sources.root)?;
-                let spirv = compiler.compile(permutation, &glsl, &sources.out)?;
-                let interface = reflect::reflect(permutation, &spirv)?;
-                Ok((permutation.clone(), spirv, interface))
-            };
-            let result = build();
-            done.push((index, result));
-        }
-        done
-    };
-    let mut results: Vec<_> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
-    });
-    if results.len() != permutations.len() {
-        return Err(vec!["a shader thread of build.rs panicked: see the output above".to_owned()]);
+    if !has_compiler() {
+        let empty = |permutation| Built { permutation, spirv: Vec::new(), interface: Interface::default() };
+        return Ok(permutations.into_iter().map(empty).collect());
     }
-    results.sort_by_key(|(index, _)| *index);
+    let compiler = compile::Compiler::find().map_err(|error| vec![error])?;
+    let keeps_debug_info = std::env::var_os("VAIR_SHADER_DEBUG").is_some();
+    let results = parallel::map(&permutations, |permutation| {
+        let glsl = include::expand(permutation, &sources.folder, sources.root)?;
+        let spirv = compiler.compile(permutation, &glsl, &sources.out)?;
+        let interface = reflect::reflect(permutation, &spirv)?;
+        let spirv = if keeps_debug_info { spirv } else { spirv::stripped(&spirv) };
+        Ok(Built { permutation: permutation.clone(), spirv, interface })
+    });
+    let results = results.map_err(|error| vec![error])?;
     let mut built = Vec::new();
     // One mistake shows in every permutation of its file: say it once.
     let mut errors: Vec<(String, Vec<String>)> = Vec::new();
-    for ((_, result), permutation) in results.into_iter().zip(&permutations) {
+    for (result, permutation) in results.into_iter().zip(&permutations) {
         match result {
             Ok(shader) => built.push(shader),
             Err(error) => match errors.iter_mut().find(|(known, _)| *known == error) {

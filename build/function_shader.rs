@@ -1,7 +1,8 @@
 //! One compute shader a library function, which evaluates it on words of a storage buffer, and the table of them.
 
+use super::Built;
 use super::function::{Function, Library, Value};
-use super::interface::Interface;
+use super::pack::Packs;
 use super::permutation::Permutation;
 use super::table;
 use std::fmt::Write;
@@ -86,11 +87,14 @@ fn component(ty: &str, at: u32) -> String {
     if ty == "mat3" { format!("[{}][{}]", at / 3, at % 3) } else { format!("[{at}]") }
 }
 
-/// Rust text of `src/shader/function.rs`: the shaders, and `ALL` functions with what they take and give.
-pub(crate) fn table(library: &Library, shaders: &[(Permutation, Vec<u32>, Interface)]) -> Result<String, Vec<String>> {
-    let mut text: String = shaders.iter().map(|(permutation, _, shader)| table::one(permutation, shader)).collect();
-    text.push_str("/// Every function of `shaders_glsl/lib`, by file.\npub static ALL: &[Function] = &[\n");
-    for (function, (permutation, ..)) in library.functions.iter().zip(shaders) {
+/// Rust text of `src/shader/function.rs`: `ALL` functions, each with its shader, which it
+/// packs into `out`, and with what they take and give.
+pub(crate) fn table(library: &Library, shaders: &[Built], out: &Path) -> Result<String, Vec<String>> {
+    let packs = Packs::new(shaders.iter().map(|shader| ("functions", &shader.spirv[..])));
+    let statics = packs.write(out)?;
+    let mut text =
+        format!("{statics}/// Every function of `shaders_glsl/lib`, by file.\npub static ALL: &[Function] = &[\n");
+    for ((function, shader), place) in library.functions.iter().zip(shaders).zip(&packs.places) {
         let parts = function.parameters.iter().map(|parameter| library.flatten(&parameter.ty, &parameter.name));
         let arguments = parts.collect::<Result<Vec<_>, _>>().map_err(|error| vec![error])?.concat();
         let results = library.flatten(&function.result, "").map_err(|error| vec![error])?;
@@ -107,7 +111,7 @@ pub(crate) fn table(library: &Library, shaders: &[(Permutation, Vec<u32>, Interf
             function.file,
             values(&arguments),
             values(&results),
-            permutation.ident(),
+            table::one(shader, *place),
         );
     }
     text.push_str("];\n");

@@ -21,8 +21,8 @@ pub(crate) fn expand(permutation: &Permutation, folder: &Path, root: &Path) -> R
         text.push('\n');
     }
     text.push_str("#extension GL_GOOGLE_cpp_style_line_directive : require\n");
-    for (name, value) in &permutation.defines {
-        text.push_str(&format!("#define {name} {}\n", value.as_deref().unwrap_or("1")));
+    for define in &permutation.defines {
+        text.push_str(&format!("#define {define} 1\n"));
     }
     append(&mut text, &path, &source, version + 1, root, &mut Vec::new())?;
     Ok(text)

@@ -4,7 +4,7 @@ use super::permutation::{Permutation, Stage};
 use std::collections::BTreeMap;
 
 /// The reflected interface of one permutation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Interface {
     /// Used descriptors, ordered by (set, binding).
     pub(crate) bindings: Vec<Binding>,
@@ -90,8 +90,8 @@ pub(crate) enum FieldType {
     Struct(String),
 }
 
-/// Checks that the stages of one pass agree on their descriptors, and that what a vertex shader hands on is what the
-/// fragment shader of the same stem and defines reads.
+/// Checks that the stages of one pass agree on their descriptors, that what a vertex shader hands on is what the
+/// fragment shader of the same stem and defines reads, and that no define merely switches code.
 pub(crate) fn check<'a>(shaders: impl Iterator<Item = (&'a Permutation, &'a Interface)>) -> Result<(), Vec<String>> {
     let shaders: Vec<_> = shaders.collect();
     let mut errors = Vec::new();
@@ -135,7 +135,32 @@ pub(crate) fn check<'a>(shaders: impl Iterator<Item = (&'a Permutation, &'a Inte
             }
         }
     }
+    for (permutation, interface) in &shaders {
+        let without = |define: &String| {
+            let rest: Vec<_> = permutation.defines.iter().filter(|other| *other != define).cloned().collect();
+            shaders.iter().find(|(other, _)| other.file == permutation.file && other.defines == rest)
+        };
+        for define in &permutation.defines {
+            let Some((other, _)) = without(define).filter(|(_, other)| is_same_interface(other, interface)) else {
+                continue;
+            };
+            errors.push(format!(
+                "{}: `{define}` changes nothing of the interface of {}: make it a specialization constant",
+                permutation.name(),
+                other.name()
+            ));
+        }
+    }
     if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
+/// Whether pipelines of the two have the same to offer.
+fn is_same_interface(a: &Interface, b: &Interface) -> bool {
+    let of = |shader: &Interface| {
+        let Interface { bindings, push_constant_bytes, inputs, outputs, .. } = shader.clone();
+        (bindings, push_constant_bytes, inputs, outputs)
+    };
+    of(a) == of(b)
 }
 
 /// Reading or writing a storage block is each stage's own affair.

@@ -1,19 +1,31 @@
 //! Writes the table of shaders.
 
-use super::interface::{Binding, Interface, Slot, SpecConstant};
-use super::permutation::{Permutation, Stage};
+use super::Built;
+use super::interface::{Binding, Slot, SpecConstant};
+use super::key::Keys;
+use super::pack::{Packs, Place};
+use super::permutation::Stage;
+use std::path::Path;
 
-/// Rust text of `src/shader/table.rs`: one static a permutation, and `ALL`.
-pub(crate) fn generate(shaders: &[(Permutation, Vec<u32>, Interface)]) -> String {
-    let statics: String = shaders.iter().map(|(permutation, _, shader)| one(permutation, shader)).collect();
-    let all: String = shaders.iter().map(|(permutation, ..)| format!("    &{},\n", permutation.ident())).collect();
-    format!(
-        "{statics}/// Every permutation, in the order of the list.\npub static ALL: &[&super::Shader] = &[\n{all}];\n"
-    )
+/// Rust text of `src/shader/table.rs`: `ALL`, of shaders sorted by their keys, and their packs, which it writes to `out`.
+pub(crate) fn generate(shaders: &[Built], keys: &Keys, out: &Path) -> Result<String, Vec<String>> {
+    let packs = Packs::new(shaders.iter().map(|shader| (shader.permutation.file.as_str(), &shader.spirv[..])));
+    let statics = packs.write(out)?;
+    let rows: String = shaders
+        .iter()
+        .zip(&packs.places)
+        .map(|(shader, place)| format!("    ({}, {}),\n", keys.literal(&shader.permutation), one(shader, *place)))
+        .collect();
+    Ok(format!(
+        "{statics}/// Every permutation, by its key.\npub static ALL: &[(super::ShaderKey, super::Shader)] = &[\n{rows}];\n"
+    ))
 }
 
-/// Rust text of one static, which lies beside its SPIR-V.
-pub(crate) fn one(permutation: &Permutation, shader: &Interface) -> String {
+/// Rust text of one shader, which lies in that place of the packs.
+pub(crate) fn one(shader: &Built, place: Place) -> String {
+    let Built { permutation, spirv, interface: shader } = shader;
+    let Place { pack, first_word, word_count } = place;
+    let hash = fnv1a(spirv);
     let name = permutation.name();
     let stage = permutation.stage();
     let bindings = list(&shader.bindings, |Binding { set, binding, name, kind }| {
@@ -32,24 +44,20 @@ pub(crate) fn one(permutation: &Permutation, shader: &Interface) -> String {
     let stage = stage.map_or_else(String::new, |stage| format!("{stage:?}"));
     let push_constant_bytes = shader.push_constant_bytes;
     let workgroup_size = shader.workgroup_size;
-    let ident = permutation.ident();
-    let spirv = format!("{name}.spv");
     format!(
-        "/// `{name}`.
-pub static {ident}: super::Shader = super::Shader {{
-    name: {name:?},
-    stage: super::Stage::{stage},
-    spirv: include_bytes!({spirv:?}),
-    bindings: &[{bindings}],
-    push_constant_bytes: {push_constant_bytes},
-    constants: &[{constants}],
-    inputs: &[{inputs}],
-    workgroup_size: {workgroup_size:?},
-}};
-"
+        "super::Shader {{ name: {name:?}, stage: super::Stage::{stage}, spirv: super::Spirv::Packed {{ pack: \
+         &PACK_{pack}, first_word: {first_word}, word_count: {word_count} }}, spirv_hash: {hash:#x}, bindings: \
+         &[{bindings}], push_constant_bytes: {push_constant_bytes}, constants: &[{constants}], inputs: &[{inputs}], \
+         workgroup_size: {workgroup_size:?} }}"
     )
 }
 
 fn list<T>(items: &[T], text: impl Fn(&T) -> String) -> String {
     items.iter().map(text).collect::<Vec<_>>().join(", ")
+}
+
+/// FNV-1a, 64 bits, of the words' bytes, as `math::fnv1a` has it.
+fn fnv1a(words: &[u32]) -> u64 {
+    let bytes = words.iter().flat_map(|word| word.to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -1,192 +1,169 @@
-//! A host program with its own instance, device, queue, command buffer and image lets vair draw one frame into them:
-//! `cargo run --example embed [PICTURE.png]`. Everything that is not `vair::` is what an engine has already.
+//! vair inside an engine's own frame: `cargo run --example embed [PICTURE.png]`.
+//!
+//! The engine has its own colour and depth, two frames in flight, and something that it draws itself: a box. vair draws two
+//! characters of one coat, posed by the engine, into the same pass: one stands before the box, one behind it. What vair
+//! writes is linear radiance; the engine's own tone mapping follows.
 #![allow(unsafe_code)]
 
-use vair::gpu::{Features, HostDevice, Image, ImageUse, ash, vk};
-use vair::render::Picture;
-use vair::scene::CameraChoice;
-use vair::{FrameOptions, Gpu, Renderer, Scene};
+#[allow(dead_code, reason = "tests use all of it")]
+mod engine;
+
+use engine::{Commands, Engine, Pass};
+use glam::{Mat4, Quat, Vec3, Vec4};
+use std::path::Path;
+use vair::asset::{Asset, AssetScene, Material, Mesh, Node, Primitive, Skin, procedural};
+use vair::gpu::{FrameToken, HostCommands, HostRendering, Image, vk};
+use vair::math::perspective_infinite;
+use vair::render::{DeviceScene, FrameDesc, InstanceDesc, Picture, Target, View};
+use vair::scene::Light;
+use vair::{Gpu, LoadOptions, Look, Renderer, Scene};
 
 const SIZE: [u32; 2] = [640, 360];
-const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
+const FRAMES_IN_FLIGHT: usize = 2;
+const FRAMES: usize = 4;
+const NEAR_M: f32 = 0.05;
+/// Half floats, reversed 32-bit depth, 4 samples a pixel: what the engine draws with already.
+const SAMPLES: u32 = 4;
+
+/// A frame in flight: a command buffer, and what stands for vair's part of it.
+struct Slot {
+    commands: Commands,
+    token: Option<FrameToken>,
+}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = std::env::args().nth(1).unwrap_or_else(|| "vair.png".to_owned());
-    let host = Engine::new()?;
-    let target = EngineImage::new(&host)?;
 
+    // The engine's own objects.
+    let engine = Engine::new(&[], &[])?;
+    let [color_use, depth_use] = [vk::ImageUsageFlags::COLOR_ATTACHMENT, vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT];
+    let target = Target::hdr(SAMPLES);
+    let color = engine.target(target.color, SIZE, SAMPLES, color_use)?;
+    let depth = engine.target(target.depth, SIZE, SAMPLES, depth_use)?;
+    let resolved = engine.target(target.color, SIZE, 1, color_use | vk::ImageUsageFlags::TRANSFER_SRC)?;
+    let new_slot = || Ok::<_, Box<dyn std::error::Error>>(Slot { commands: engine.commands()?, token: None });
+    let mut slots = (0..FRAMES_IN_FLIGHT).map(|_| new_slot()).collect::<Result<Vec<Slot>, _>>()?;
+
+    // vair on the engine's device: a renderer, and a scene from memory with two characters of one mesh and coat.
     // SAFETY: the handles belong together and are destroyed after `gpu` and everything made from it.
-    let gpu = unsafe { Gpu::from_host(host.lend()) }?;
-    let mut renderer = Renderer::with_gpu(gpu.clone())?;
-    let scene = Scene::gallery();
-    let camera = CameraChoice::Named(vair::asset::procedural::GALLERY_CAMERA.to_owned());
-    let options = FrameOptions { size: SIZE, camera, ..FrameOptions::default() };
+    let gpu = unsafe { Gpu::from_host(engine.lend(false)) }?;
+    let mut renderer = Renderer::with_gpu(gpu.clone());
+    let mut scene = DeviceScene::new(Scene::from_asset(character())?);
+    scene.apply(&Look::preset("fox", Some("coat"))?, Path::new(""), &LoadOptions::default())?;
+    let skinned = InstanceDesc { mesh: 0, skin: Some(0), ..InstanceDesc::default() };
+    let characters = [scene.add(&skinned)?, scene.add(&skinned)?];
 
-    // SAFETY: image and view are alive, of this format and size, and have no contents yet.
-    let image = unsafe {
-        Image::from_host(&gpu, "engine's image", target.image, target.view, FORMAT, SIZE, vk::ImageLayout::UNDEFINED)
-    };
-    host.run(|command_buffer| {
-        // SAFETY: the command buffer is recording, outside of a pass, and submitted once right after.
-        let mut encoder = unsafe { gpu.encoder_on_host("vair", command_buffer) };
-        renderer.record(&mut encoder, &scene, &options, &image)?;
-        encoder.transition(&image, ImageUse::Host(vk::ImageLayout::GENERAL));
-        encoder.finish_on_host()?;
-        Ok(())
-    })?;
-    // SAFETY: `run` has waited for the queue.
-    unsafe { gpu.host_idle() };
+    // The engine's camera and lights.
+    let world_from_view = Mat4::from_translation(Vec3::new(0.0, 0.0, 2.0));
+    let clip_from_view = perspective_infinite(0.5, SIZE[0] as f32 / SIZE[1] as f32, NEAR_M);
+    let view = View::new(world_from_view.inverse(), clip_from_view, SIZE);
+    let lights = [Light::key()];
 
-    Picture::new(SIZE, gpu.read_image(&image)?).save(&out)?;
-    println!("{out}, drawn on {} by the host's command buffer", gpu.info().name);
+    for number in 0..FRAMES {
+        let slot = &mut slots[number % FRAMES_IN_FLIGHT];
+        // This slot's last frame is done: what only that frame used may be used again.
+        engine.wait(&slot.commands)?;
+        if let Some(token) = slot.token.take() {
+            // SAFETY: its fence has passed.
+            unsafe { gpu.frame_passed(token) }?;
+        }
+        let commands = engine.begin(&slot.commands)?;
 
-    drop((image, renderer, gpu));
-    target.end(&host);
-    host.end();
+        // The engine's animation.
+        let time_s = number as f32 / 60.0;
+        for (id, (place, lean)) in characters.into_iter().zip([(-0.22, 0.5), (0.22, -0.5)]) {
+            // The first stands 1.7 m before the camera, the second 2.3 m: the box is between them, at 2 m.
+            let root = Mat4::from_translation(Vec3::new(place, 0.0, if place < 0.0 { 0.3 } else { -0.3 }));
+            let bent = Mat4::from_quat(Quat::from_rotation_z(lean + 0.1 * (6.0 * time_s).sin()));
+            scene.set_joints(id, &[root, root * bent])?;
+        }
+
+        // Outside of the pass: what changed is uploaded, characters are posed, shadow maps are drawn.
+        // SAFETY: the command buffer is recording, outside of a pass, and submitted once, before any later one.
+        let mut frame = renderer.frame(unsafe { HostCommands::recording(commands) })?;
+        let desc = FrameDesc { views: &[view], target, lights: &lights, step_s: 1.0 / 60.0, ..FrameDesc::default() };
+        frame.prepare(&mut scene, &desc)?;
+
+        // The engine's pass, with its own box in it, into which vair draws.
+        let color_layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        engine.barrier(commands, &color, vk::ImageLayout::UNDEFINED, color_layout);
+        engine.barrier(commands, &resolved, vk::ImageLayout::UNDEFINED, color_layout);
+        let depth_layout = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+        engine.barrier(commands, &depth, vk::ImageLayout::UNDEFINED, depth_layout);
+        let clear_color = [0.10, 0.13, 0.18, 1.0];
+        let pass = Pass {
+            color: Some(&color),
+            resolve: Some(&resolved),
+            depth: Some(&depth),
+            clear_color,
+            clear_depth: Some(0.0),
+        };
+        engine.begin_rendering(commands, &pass);
+        engine.fill(commands, box_on_screen(), [0.02, 0.30, 0.28, 1.0], NEAR_M / 2.0);
+        // SAFETY: `commands` is inside a dynamic rendering pass of these formats and samples.
+        let pass = unsafe { HostRendering::begun(commands, target.formats()) };
+        frame.draw_opaque(pass, &scene, 0)?;
+        frame.draw_fur(pass, &scene, 0)?;
+        frame.draw_transparent(pass, &scene, 0)?;
+        engine.end_rendering(commands);
+
+        slot.token = Some(frame.finish()?);
+        engine.submit(&slot.commands)?;
+    }
+
+    for slot in &mut slots {
+        engine.wait(&slot.commands)?;
+        if let Some(token) = slot.token.take() {
+            // SAFETY: its fence has passed.
+            unsafe { gpu.frame_passed(token) }?;
+        }
+    }
+    // The engine would go on with bloom and the like; here the host's processor maps tones and writes a file.
+    let desc = resolved.described("engine's colour", vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
+    // SAFETY: image and view are alive, as described, in that layout, and may be copied from.
+    let image = unsafe { Image::from_host(&gpu, &desc) };
+    let radiance = gpu.read_image(&image)?;
+    Picture::new(SIZE, radiance.chunks_exact(8).flat_map(tone_mapped).collect()).save(&out)?;
+    println!("{out}: {FRAMES} frames on {} by the engine's command buffers", gpu.info().name);
+
+    drop((image, scene, renderer, gpu));
+    slots.iter().for_each(|slot| engine.destroy_commands(&slot.commands));
+    [color, depth, resolved].iter().for_each(|target| engine.destroy_target(target));
+    engine.destroy();
     Ok(())
 }
 
-/// The engine's own Vulkan objects.
-struct Engine {
-    entry: ash::Entry,
-    instance: ash::Instance,
-    physical_device: vk::PhysicalDevice,
-    features: Features,
-    device: ash::Device,
-    queue: vk::Queue,
-    queue_family: u32,
-}
-
-impl Engine {
-    fn new() -> Result<Self, Box<dyn std::error::Error>> {
-        // SAFETY: the system's Vulkan loader is trusted.
-        let entry = unsafe { ash::Entry::load() }?;
-        let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
-        let info = vk::InstanceCreateInfo::default().application_info(&application);
-        // SAFETY: no layer or extension is asked for.
-        let instance = unsafe { entry.create_instance(&info, None) }?;
-        // SAFETY: the instance is alive.
-        let physical_devices = unsafe { instance.enumerate_physical_devices() }?;
-        let is_recent = |device: &vk::PhysicalDevice| {
-            // SAFETY: listed by the instance.
-            let properties = unsafe { instance.get_physical_device_properties(*device) };
-            properties.api_version >= vk::API_VERSION_1_3
-        };
-        let physical_device = physical_devices.into_iter().find(is_recent).ok_or("no Vulkan 1.3 device")?;
-        // SAFETY: listed by the instance, and of Vulkan 1.3.
-        let mut features = unsafe { Features::supported(&instance, physical_device) }.wanted();
-        // SAFETY: listed by the instance.
-        let families = unsafe { instance.get_physical_device_queue_family_properties(physical_device) };
-        let needed = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-        let queue_family = families.iter().position(|family| family.queue_flags.contains(needed)).ok_or("no queue")?;
-        let queue_family = u32::try_from(queue_family)?;
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
-        let enabled = features;
-        let mut chain = features.chain();
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut chain);
-        // SAFETY: only supported features are enabled.
-        let device = unsafe { instance.create_device(physical_device, &info, None) }?;
-        // SAFETY: the device has one queue of this family.
-        let queue = unsafe { device.get_device_queue(queue_family, 0) };
-        Ok(Self { entry, instance, physical_device, features: enabled, device, queue, queue_family })
-    }
-
-    fn lend(&self) -> HostDevice {
-        HostDevice {
-            entry: self.entry.clone(),
-            instance: self.instance.clone(),
-            physical_device: self.physical_device,
-            device: self.device.clone(),
-            queue: self.queue,
-            queue_family: self.queue_family,
-            features: self.features,
-            has_debug_utils: false,
-            pipeline_cache_dir: None,
-        }
-    }
-
-    /// Records with `record`, submits, and waits.
-    fn run(
-        &self,
-        record: impl FnOnce(vk::CommandBuffer) -> Result<(), vair::Error>,
-    ) -> Result<(), Box<dyn std::error::Error>> {
-        let device = &self.device;
-        let info = vk::CommandPoolCreateInfo::default().queue_family_index(self.queue_family);
-        // SAFETY: the family is the device's.
-        let pool = unsafe { device.create_command_pool(&info, None) }?;
-        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: the pool was just created.
-        let buffers = unsafe { device.allocate_command_buffers(&info) }?;
-        // SAFETY: the command buffer is new.
-        unsafe { device.begin_command_buffer(buffers[0], &vk::CommandBufferBeginInfo::default()) }?;
-        record(buffers[0])?;
-        // SAFETY: it is recording.
-        unsafe { device.end_command_buffer(buffers[0]) }?;
-        let submit = vk::SubmitInfo::default().command_buffers(&buffers);
-        // SAFETY: nobody else uses the queue.
-        unsafe { device.queue_submit(self.queue, &[submit], vk::Fence::null()) }?;
-        // SAFETY: as above.
-        unsafe { device.queue_wait_idle(self.queue) }?;
-        // SAFETY: the work has finished.
-        unsafe { device.destroy_command_pool(pool, None) };
-        Ok(())
-    }
-
-    fn end(self) {
-        // SAFETY: the device is idle and everything made from it is gone.
-        unsafe { self.device.destroy_device(None) };
-        // SAFETY: the device is gone.
-        unsafe { self.instance.destroy_instance(None) };
+/// A capsule that bends at its middle: one mesh, one skin of two joints, one material.
+fn character() -> Asset {
+    let mut capsule = procedural::capsule(0.12, 0.16, 40, 40);
+    let upper = |position: &Vec3| (position.y / 0.2 + 0.5).clamp(0.0, 1.0);
+    let weights = capsule.vertices.positions.iter().map(upper);
+    capsule.vertices.joints = weights.flat_map(|upper| [(0, 1.0 - upper), (1, upper), (0, 0.0), (0, 0.0)]).collect();
+    capsule.vertices.influences_per_vertex = 4;
+    let base_color = Vec4::new(0.62, 0.27, 0.075, 1.0);
+    let coat = Material { name: Some("coat".to_owned()), base_color, metallic: 0.0, ..Material::default() };
+    Asset {
+        nodes: vec![Node::default(), Node::default()],
+        meshes: vec![Mesh { primitives: vec![Primitive { material: 0, ..capsule }], ..Mesh::default() }],
+        skins: vec![Skin { joints: vec![0, 1], inverse_bind: vec![Mat4::IDENTITY; 2] }],
+        materials: vec![coat],
+        scenes: vec![AssetScene::default()],
+        ..Asset::default()
     }
 }
 
-/// The engine's render target.
-struct EngineImage {
-    image: vk::Image,
-    memory: vk::DeviceMemory,
-    view: vk::ImageView,
+/// Where the engine's box is on the screen. An engine has shaders for this; a cleared rectangle needs none.
+fn box_on_screen() -> vk::Rect2D {
+    let [width, height] = SIZE;
+    vk::Rect2D {
+        offset: vk::Offset2D { x: (width / 4) as i32, y: (height * 2 / 5) as i32 },
+        extent: vk::Extent2D { width: width / 2, height: height * 2 / 5 },
+    }
 }
 
-impl EngineImage {
-    fn new(engine: &Engine) -> Result<Self, vk::Result> {
-        let device = &engine.device;
-        let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
-            .format(FORMAT)
-            .extent(vk::Extent3D { width: SIZE[0], height: SIZE[1], depth: 1 })
-            .mip_levels(1)
-            .array_layers(1)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC);
-        // SAFETY: every device supports such an image.
-        let image = unsafe { device.create_image(&info, None) }?;
-        // SAFETY: the image was just created.
-        let requirements = unsafe { device.get_image_memory_requirements(image) };
-        let info = vk::MemoryAllocateInfo::default()
-            .allocation_size(requirements.size)
-            .memory_type_index(requirements.memory_type_bits.trailing_zeros());
-        // SAFETY: the type is one that the image allows.
-        let memory = unsafe { device.allocate_memory(&info, None) }?;
-        // SAFETY: size and type are what the image requires.
-        unsafe { device.bind_image_memory(image, memory, 0) }?;
-        let range =
-            vk::ImageSubresourceRange::default().aspect_mask(vk::ImageAspectFlags::COLOR).level_count(1).layer_count(1);
-        let info = vk::ImageViewCreateInfo::default()
-            .image(image)
-            .view_type(vk::ImageViewType::TYPE_2D)
-            .format(FORMAT)
-            .subresource_range(range);
-        // SAFETY: the image has memory.
-        let view = unsafe { device.create_image_view(&info, None) }?;
-        Ok(Self { image, memory, view })
-    }
-
-    fn end(self, engine: &Engine) {
-        // SAFETY: the queue is idle and vair no longer uses the view.
-        unsafe { engine.device.destroy_image_view(self.view, None) };
-        // SAFETY: as above.
-        unsafe { engine.device.destroy_image(self.image, None) };
-        // SAFETY: the image is gone.
-        unsafe { engine.device.free_memory(self.memory, None) };
-    }
+/// Half-float radiance as 8-bit display colour: Reinhard's curve, and a gamma of 2.2.
+fn tone_mapped(texel: &[u8]) -> [u8; 4] {
+    let radiance = |channel: usize| half::f16::from_le_bytes([texel[2 * channel], texel[2 * channel + 1]]).to_f32();
+    let display = |radiance: f32| ((radiance / (1.0 + radiance)).powf(1.0 / 2.2) * 255.0 + 0.5) as u8;
+    [display(radiance(0)), display(radiance(1)), display(radiance(2)), 255]
 }

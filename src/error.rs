@@ -4,15 +4,9 @@ use crate::asset::AssetError;
 use crate::gpu::GpuError;
 use crate::material::MaterialError;
 #[cfg(feature = "measure")]
-use crate::oracle::OracleError;
-#[cfg(feature = "measure")]
-use crate::profile::ProfileError;
+use crate::measure::{oracle::OracleError, profile::ProfileError, report::ReportError, verify::VerifyError};
 use crate::render::RenderError;
-#[cfg(feature = "measure")]
-use crate::report::ReportError;
 use crate::scene::SceneError;
-#[cfg(feature = "measure")]
-use crate::verify::VerifyError;
 
 /// Anything that this crate can fail with. Each message is one line: what, where, and what to do.
 #[derive(Debug, thiserror::Error)]

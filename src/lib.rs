@@ -17,84 +17,61 @@
 //! # }
 //! ```
 //!
-//! A host with a device of its own lends it ([`Gpu::from_host`]) and gets the frame recorded into its own command
-//! buffer and image, between its own passes:
-//!
-//! ```no_run
-//! use vair::gpu::{HostDevice, Image, ImageUse, vk};
-//! use vair::{FrameOptions, Gpu, Renderer, Scene};
-//!
-//! # fn frame(
-//! #     host: HostDevice, command_buffer: vk::CommandBuffer, image: vk::Image, view: vk::ImageView,
-//! # ) -> Result<(), vair::Error> {
-//! // SAFETY: the host's handles belong together and outlive `gpu`.
-//! let gpu = unsafe { Gpu::from_host(host)? };
-//! let mut renderer = Renderer::with_gpu(gpu.clone())?;
-//! let scene = Scene::gallery();
-//! let options = FrameOptions { size: [1280, 720], ..FrameOptions::default() };
-//!
-//! let (format, layout) = (vk::Format::R8G8B8A8_SRGB, vk::ImageLayout::UNDEFINED);
-//! // SAFETY: image and view are alive and as described.
-//! let target = unsafe { Image::from_host(&gpu, "host", image, view, format, options.size, layout) };
-//! // SAFETY: the command buffer is recording; the host submits it once and then calls `host_idle`.
-//! let mut encoder = unsafe { gpu.encoder_on_host("vair", command_buffer) };
-//! renderer.record(&mut encoder, &scene, &options, &target)?;
-//! encoder.transition(&target, ImageUse::Host(vk::ImageLayout::PRESENT_SRC_KHR));
-//! encoder.finish_on_host()?;
-//! # Ok(())
-//! # }
-//! ```
+//! An engine lends its device and gets fur and cloth drawn inside its own frame, on its own colour and depth:
+//! `docs/embedding.md` is the way there ([`mod@embedding`] here), [`render::Frame`] the calls.
 //!
 //! # Rooms
 //! Each sees only those before it; a test keeps it so.
 //!
 //! | room | is |
 //! |---|---|
-//! | [`math`] | spaces and bounds |
+//! | [`math`] | spaces and bounds, and how numbers are coded |
 //! | [`shader`] | the compiled shaders and what reflection knows of them |
 //! | [`gpu`] | the only unsafe code; knows Vulkan, knows no fur |
 //! | [`asset`] | files to plain data; trusts nothing |
-//! | [`material`] | parameters declared once, looks, presets, and double-precision twins of the shading |
+//! | [`material`] | parameters declared once, looks, presets |
 //! | [`scene`] | pose, instances, lights, camera; pure functions |
 //! | [`render`] | what one frame needs, and the frame |
-//! | `oracle` | what shells approach: coats ray-cast in double precision |
-//! | `verify` | every shader function against its twin on the device; what the formulas promise |
-//! | `profile` | where a frame's time, fragments and memory go |
-//! | `report` | error against run time |
+//! | `measure` | what judges the others, in rooms of its own: |
+//! | `measure::twin` | the shading in double precision, and what each shader function is held to |
+//! | `measure::oracle` | what shells approach: fur ray-cast in double precision |
+//! | `measure::furnace` | what the formulas promise: no light from nothing |
+//! | `measure::verify` | every shader function against its twin, on the device |
+//! | `measure::profile` | where a frame's time, fragments and memory go |
+//! | `measure::report` | error against run time |
 //!
-//! The last four judge the others. They come with the feature `measure`, which the program has and an embedding engine
-//! leaves out.
+//! `measure` comes with the feature of that name, which the program has and an embedding engine leaves out: nothing that
+//! draws sees it.
 //!
 //! # A frame
-//! [`FrameOptions`] and a [`Scene`] make a [`render::Shot`]: pose, camera, light, and the [`render::Plan`], which lists
-//! draws, pipelines, vertex streams and textures, and what is left out and why. Nothing has touched the device yet:
-//! `vair inspect` prints just this. The resources then make what the plan lists and nothing else, and the frame records
-//! its passes: deform (skins and morphs, in compute), sway (strands that lag behind), guide (depth, normal and motion) and
-//! screen occlusion where they are asked for, shadow (what lights see, up to four passes into one atlas), opaque, fur,
-//! transparent (what blends, into lists) and transparency (the lists, sorted and composed), tone mapping.
+//! [`FrameOptions`] and a [`Scene`] make a [`render::FrameSetup`]: pose, camera, lights, and the [`render::Plan`], which lists
+//! draws, pipelines, vertex streams and textures. Nothing has touched the device yet: `vair inspect` prints just this, and what
+//! is skipped and why. A host's [`render::DeviceScene`] comes to a plan by its own edits. The device then makes what the plan
+//! lists and nothing else; each frame writes its values and records the passes of [`render::Pass`] that are wanted, in the
+//! order of that list. A plan stays while a scene only moves, and with it all that was made for it.
 //!
 //! # Fur
-//! A coat is strands on a lattice of the rest pose and a few shells over the mesh, one instance each, the outermost
+//! Fur is strands on a lattice of the rest pose and a few shells over the mesh, one instance each, the outermost
 //! first. A shell is the upper boundary of a slab: its fragments walk the cells of the lattice that the view ray crosses
 //! within the slab and find the strand that it meets, and where. So a handful of shells shows what infinitely many
 //! would; `vair report` says how nearly and at which cost, beside the ways of other renderers ([`render::Shells`]).
 //!
 //! A strand reflects light, lets it through and returns it, in three normalised lobes about its tangent; the rest goes from
-//! strand to strand and is diffuse, so that a white coat in white surroundings is white. Along the light the coat counts by
-//! its optical depth, along the view by the shells that are drawn, and by nothing else.
+//! strand to strand and is diffuse, so that white fur in a white environment is white. Along the light fur counts by its
+//! optical depth, along the view by the shells that are drawn, and by nothing else.
 //!
-//! # Cloth
-//! A family of cloth ([`material::Cloth`]) takes the place of the standard surface's lobes and keeps its maps and
+//! # Family
+//! A material family ([`material::Family`]) takes the place of the standard surface's lobes and keeps its maps and
 //! parameters. It is one stem throughout: `satin` is a file of parameters in [`material`], a uniform block in
 //! `shaders_glsl/host`, functions in `lib`, a fragment shader in `pass` over what all share (`surface.glsl`), a file of
-//! [`render`] that binds the two, a twin, and a judge. What it does not use is not in its pipeline. glTF's own material
-//! extensions are a family, too: `layered`. Lobes are coupled by directional albedo, so that nothing that is worn gives more
-//! light than it gets; `classic = true` evaluates the formula of older engines instead, which does.
+//! [`render`] that binds the two and says what it casts, a twin, and a judge. What it does not use is not in its pipeline. glTF's
+//! own material extensions are a family, too: `layered`. Lobes are coupled by directional albedo, so that nothing that is worn
+//! gives more light than it gets; `classic = true` evaluates the formula of older engines instead, which does.
 //!
 //! # Conventions
 //! - World space is right-handed, Y up, metres, seconds. Angles are radians inside and degrees where a person writes
 //!   them. Names say space and unit: `normal_in_world`, `length_m`, `frame_ms`; matrices are `to_from_source`.
-//! - Clip space is Y up; depth runs from 1 at the near plane to 0.
+//! - Clip space is Y up and depth runs from 1 at the near plane to 0; a host's views and targets may declare otherwise.
 //! - Colours are linear RGB with the primaries of sRGB. Colour textures are decoded when sampled, data never.
 //!   Compositing is premultiplied.
 //! - A length in a look is metres, or a share of the mesh's bounding radius (`"4%"`).
@@ -113,6 +90,10 @@
 //! Transformed Cosines". Films: Belcour & Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of
 //! Varying Iridescence". Glints: Kemppinen et al. 2025, "Glinty NDFs in Constant Time". Each function cites its own.
 
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/embedding.md")]
+pub mod embedding {}
+
 #[allow(unsafe_code)]
 pub mod gpu;
 
@@ -121,16 +102,10 @@ mod error;
 pub mod material;
 pub mod math;
 #[cfg(feature = "measure")]
-pub mod oracle;
-#[cfg(feature = "measure")]
-pub mod profile;
+pub mod measure;
 pub mod render;
-#[cfg(feature = "measure")]
-pub mod report;
 pub mod scene;
 pub mod shader;
-#[cfg(feature = "measure")]
-pub mod verify;
 
 pub use asset::LoadOptions;
 pub use error::Error;

@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
-use vair::material::reference::albedo::{Fit, gauss_legendre};
-use vair::material::reference::anisotropy::{Lobe, albedo_terms, average_terms};
-use vair::material::reference::ggx;
+use vair::measure::twin::albedo::{Fit, gauss_legendre};
+use vair::measure::twin::anisotropy::{Lobe, albedo_terms, average_terms};
+use vair::measure::twin::ggx;
 
 fn direction(cosine: f64, turn: f64) -> DVec3 {
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();

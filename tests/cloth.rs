@@ -2,7 +2,7 @@
 //! nearest name, and says what it cannot show.
 
 use vair::asset::{self, Asset, Image, procedural};
-use vair::material::{Cloth, Form, KINDS, Look, Material, Parameter, from_asset};
+use vair::material::{Family, Form, KINDS, Look, Material, Parameter, from_asset};
 use vair::{LoadOptions, Scene};
 
 fn applied(text: &str) -> Result<Material, String> {
@@ -24,19 +24,19 @@ fn with_key(kind: &str, key: &str, value: &str) -> Result<Material, String> {
 
 /// The parameters of every family.
 fn every_parameter() -> impl Iterator<Item = (&'static str, &'static Parameter)> {
-    let families = KINDS.iter().filter(|(kind, _)| Cloth::KINDS.contains(kind));
+    let families = KINDS.iter().filter(|(kind, _)| Family::KINDS.contains(kind));
     families.flat_map(|(kind, list)| list.iter().map(move |parameter| (*kind, parameter)))
 }
 
 #[test]
 fn every_family_can_be_asked_for() {
-    for kind in Cloth::KINDS {
+    for kind in Family::KINDS {
         let material = applied(&format!("[material.Skirt]\nkind = \"{kind}\"\n")).unwrap();
-        assert_eq!((material.kind(), material.cloth), (*kind, Cloth::of_kind(kind)));
+        assert_eq!((material.kind(), material.family), (*kind, Family::of_kind(kind)));
     }
     let error = applied("[material.Skirt]\nkind = \"sattin\"\n").unwrap_err();
     assert!(error.starts_with("look.toml:2: ") && error.contains("did you mean `satin`?"), "{error}");
-    assert_eq!(Cloth::of_kind("fur"), None, "fur is a coat");
+    assert_eq!(Family::of_kind("fur"), None, "fur is a coat");
 }
 
 #[test]
@@ -44,17 +44,17 @@ fn another_kind_starts_anew_and_the_same_kind_goes_on() {
     let text = |second: &str| {
         format!("[material.\"*\"]\nkind = \"satin\"\nanisotropy = -0.25\n[material.Skirt]\nkind = \"{second}\"\n")
     };
-    let Some(Cloth::Satin(satin)) = applied(&text("satin")).unwrap().cloth else { panic!("satin") };
+    let Some(Family::Satin(satin)) = applied(&text("satin")).unwrap().family else { panic!("satin") };
     assert_eq!(satin.anisotropy, -0.25);
-    assert_eq!(applied(&text("standard")).unwrap().cloth, None);
+    assert_eq!(applied(&text("standard")).unwrap().family, None);
     let fur = applied(&text("fur")).unwrap();
-    assert!(fur.fur.is_some() && fur.cloth.is_none());
+    assert!(fur.fur.is_some() && fur.family.is_none());
 }
 
 #[test]
 fn defaults_are_in_range_and_every_key_has_one_line_of_help() {
-    for kind in Cloth::KINDS {
-        let cloth = Cloth::of_kind(kind).unwrap();
+    for kind in Family::KINDS {
+        let cloth = Family::of_kind(kind).unwrap();
         let mut clamped = cloth.clone();
         clamped.clamp();
         assert_eq!(clamped, cloth, "{kind}: a default lies outside its range");

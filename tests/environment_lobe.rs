@@ -3,10 +3,10 @@
 
 use glam::{DVec2, DVec3};
 use std::sync::LazyLock;
-use vair::material::reference::environment::{self, LobeEntry};
-use vair::material::reference::sheen::Lobe;
-use vair::material::reference::{environment_lobe, ggx};
 use vair::material::{Sheen, SheenTable};
+use vair::measure::twin::environment::{self, LobeEntry};
+use vair::measure::twin::sheen::Lobe;
+use vair::measure::twin::{environment_lobe, ggx};
 
 /// Sharpness of the lamp, a von Mises-Fisher lobe: its radiance is half at 10.7 degrees from the middle.
 const SHARPNESS: f64 = 40.0;

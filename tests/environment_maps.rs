@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3, Vec4};
 use half::f16;
 use vair::asset::Environment;
 use vair::gpu::{Gpu, GpuOptions};
-use vair::material::reference::environment::{self as twin, LobeEntry};
-use vair::material::reference::sheen::Lobe;
 use vair::material::{Sheen, SheenTable};
+use vair::measure::twin::environment::{self as twin, LobeEntry};
+use vair::measure::twin::sheen::Lobe;
 use vair::render::{EnvironmentQuality, PreparedEnvironment, prepare_environment, prepare_lobes};
 
 fn gpu() -> Gpu {

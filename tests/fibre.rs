@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
-use vair::material::reference::albedo::gauss_legendre;
-use vair::material::reference::fibre::{Fibre, along, around, variance};
+use vair::measure::twin::albedo::gauss_legendre;
+use vair::measure::twin::fibre::{Fibre, along, around, variance};
 
 /// Strands that stand, lean and lie.
 const STRAND_TO_NORMAL_DEG: [f64; 4] = [0.0, 30.0, 65.0, 90.0];
@@ -90,7 +90,7 @@ fn hair_furnace() {
         let coat = over_sphere(&fibre, |light| fibre.scattering(1.0, light, 0.0));
         (least, most) = (least.min(coat), most.max(coat));
         assert!((0.95..=1.001).contains(&coat), "a white coat shows {coat} in a white furnace: {name}");
-        assert!((fibre.surroundings(1.0, 1.0, 1.0, 1.0, 0.0) - 1.0).abs() < 1e-12, "{name}");
+        assert!((fibre.environment(1.0, 1.0, 1.0, 1.0, 0.0) - 1.0).abs() < 1e-12, "{name}");
         for depth in [0.3, 3.0] {
             assert!(over_sphere(&fibre, |light| fibre.scattering(1.0, light, depth)) < coat, "{name}: depth darkens");
         }

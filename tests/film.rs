@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use std::sync::LazyLock;
-use vair::material::reference::film::{self, BANDS, Fit, bare, f0_of_reflectance, spectral_reflectance};
-use vair::material::reference::hash;
+use vair::measure::twin::film::{self, BANDS, Fit, bare, f0_of_reflectance, spectral_reflectance};
+use vair::measure::twin::hash;
 
 static FIT: LazyLock<Fit> = LazyLock::new(Fit::shipped);
 

@@ -2,12 +2,12 @@
 
 use std::f64::consts::SQRT_2;
 use vair::material::KINDS;
-use vair::material::reference::classic::{fur, gauze, satin};
-use vair::verify::{Claim, Input, claims, furnace};
+use vair::measure::furnace::{self, Input, PropertyCheck, checks};
+use vair::measure::twin::classic::{fur, gauze, satin};
 
 #[test]
 fn ours_keep_every_promise_and_classic_ones_decide_nothing() {
-    let properties = furnace(100);
+    let properties = furnace::run(100);
     for (material, _) in KINDS {
         assert!(properties.iter().filter(|property| property.material == *material && !property.classic).count() >= 5);
     }
@@ -22,8 +22,8 @@ fn ours_keep_every_promise_and_classic_ones_decide_nothing() {
     }
 }
 
-fn broken_where(bad: fn(f64) -> bool) -> Claim {
-    Claim {
+fn broken_where(bad: fn(f64) -> bool) -> PropertyCheck {
+    PropertyCheck {
         material: "planted",
         property: "stays below 1",
         classic: false,
@@ -56,7 +56,7 @@ const GRAZING: f64 = 1e-4;
 /// Strength of the force at which a strand that is pushed straight down is shortest.
 const SHORTEST: f64 = SQRT_2 / 4.0;
 
-/// One value of a classic claim beside the figure that is known of it.
+/// One value of a classic check beside the figure that is known of it.
 struct Pin(&'static str, &'static str, &'static [f64], f64, f64);
 
 #[test]
@@ -99,14 +99,14 @@ fn classic_defects_are_those_that_are_known() {
         Pin("fur", "length of a strand, off 1 by", &[SHORTEST, 180.0], 2.0 - SQRT_2, 1.0 / 256.0),
         Pin("fur", "length of a strand, off 1 by", &[1.0, 145.0], 0.26, 5e-3),
     ];
-    let claims = claims();
+    let checks = checks();
     for Pin(material, property, inputs, known, tolerance) in pins {
-        let claim = claims
+        let check = checks
             .iter()
-            .find(|claim| claim.classic && (claim.material, claim.property) == (material, property))
+            .find(|check| check.classic && (check.material, check.property) == (material, property))
             .unwrap_or_else(|| panic!("{material}: {property}"));
-        assert_eq!(claim.inputs.len(), inputs.len(), "{material}: {property}");
-        let found = (claim.value)(inputs);
+        assert_eq!(check.inputs.len(), inputs.len(), "{material}: {property}");
+        let found = (check.value)(inputs);
         assert!((found - known).abs() <= tolerance, "{material}: {property} at {inputs:?}: {found} for {known}");
     }
 }

@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 use std::f64::consts::PI;
-use vair::material::reference::albedo::{Fit, gauss_legendre};
-use vair::material::reference::anisotropy::Lobe;
-use vair::material::reference::classic::gauze::{half_opacity_cosine, opacity as classic_opacity};
-use vair::material::reference::gauze::{Gauze, Weave, met_by_both, phi1 as phi1_of, through};
-use vair::verify::twins;
+use vair::measure::twin::albedo::{Fit, gauss_legendre};
+use vair::measure::twin::anisotropy::Lobe;
+use vair::measure::twin::classic::gauze::{half_opacity_cosine, opacity as classic_opacity};
+use vair::measure::twin::gauze::{Gauze, Weave, met_by_both, phi1 as phi1_of, through};
+use vair::measure::twin::twins;
 
 fn direction(cosine: f64, turn: f64) -> DVec3 {
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();

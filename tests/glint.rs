@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3, IVec2};
 use std::f64::consts::PI;
-use vair::material::reference::{ggx, glint};
 use vair::material::{Flakes, Glint};
+use vair::measure::twin::{ggx, glint};
 
 /// Seeded numbers in [0, 1): SplitMix64 (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
 struct Random(u64);
@@ -279,7 +279,8 @@ fn flakes_beyond_number_do_not_flicker() {
 #[cfg(feature = "measure")]
 #[test]
 fn glint_hash_gives_the_same_bits_on_the_device() {
-    use vair::verify::{Limit, run_with, twins};
+    use vair::measure::twin::{Limit, twins};
+    use vair::measure::verify::run_with;
     let gpu = vair::gpu::Gpu::new(&vair::gpu::GpuOptions::default()).unwrap_or_else(|error| panic!("{error}"));
     for name in ["hash_pcg3d", "glint_seed", "glint_shuffle", "glint_unshuffle", "glint_tiles"] {
         let twin = twins().find(|twin| twin.name == name).unwrap();

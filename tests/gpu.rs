@@ -1,11 +1,14 @@
 //! The device layer keeps its promises on a real device, with validation and synchronization validation clean.
 //!
 //! Needs a Vulkan device and the validation layer; without them these tests fail and say what to install.
+#[path = "support/colored.rs"]
+mod colored;
 #[path = "support/glsl.rs"]
 mod glsl;
 #[path = "support/small_shaders.rs"]
 mod small_shaders;
 
+use colored::{COLORED_FRAG, COLORED_VERT};
 use small_shaders::*;
 use std::sync::LazyLock;
 use vair::gpu::vk;
@@ -457,7 +460,7 @@ fn constants_are_given_by_name_and_described() {
   Vertex shader: full.vert
   Fragment shader: tint.frag
     constant 7 channel_count = 0x00000003
-  set 0 binding 0: UNIFORM_BUFFER 'tint' of 16 bytes
+  set 0 binding 0: UNIFORM_BUFFER_DYNAMIC 'tint' of 16 bytes
   set 1 binding 0: SAMPLED_IMAGE 'base'
   set 1 binding 1: SAMPLER 'base_sampler'
   push constants: 16 bytes

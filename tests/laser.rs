@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
-use vair::material::reference::classic;
-use vair::material::reference::hsv::{hsv_from_rgb, rgb_from_hsv};
-use vair::material::reference::laser::{angle_along, curve, kept_of_wheel, mean_of_wheel, ramp, wheel};
+use vair::measure::twin::classic;
+use vair::measure::twin::hsv::{hsv_from_rgb, rgb_from_hsv};
+use vair::measure::twin::laser::{angle_along, curve, kept_of_wheel, mean_of_wheel, ramp, wheel};
 
 fn steps(count: u32) -> impl Iterator<Item = f64> {
     (0..=count).map(move |step| f64::from(step) / f64::from(count))

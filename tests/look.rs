@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use serde_json::json;
 use vair::asset::{self, Asset, Image};
-use vair::material::{Family, Fur, Length, Look, Material, Shape, Standard, from_asset, presets};
+use vair::material::{Fur, Length, Look, Material, ParameterSet, Shape, Standard, from_asset, presets};
 
 fn scene(names: &[&str]) -> (Asset, Vec<Material>) {
     let mut asset = Asset::default();
@@ -138,11 +138,11 @@ fn every_preset_applies_and_stays_in_range() {
         let look = Look::preset(&preset.name.replace(' ', "-"), Some("B")).unwrap();
         look.apply(&mut asset, &mut materials, &mut no_images).unwrap();
         assert!(materials[0].fur.is_none());
-        assert!(materials[0].cloth.is_none() && preset.parameters().count() >= 4, "{}", preset.name);
+        assert!(materials[0].family.is_none() && preset.parameters().count() >= 4, "{}", preset.name);
         assert_eq!(materials[1].kind(), preset.kind(), "{}", preset.name);
         let mut clamped = materials[1].clone();
         clamped.standard.clamp();
-        if let Some(cloth) = &mut clamped.cloth {
+        if let Some(cloth) = &mut clamped.family {
             cloth.clamp();
         }
         if let Some(fur) = &mut clamped.fur {
@@ -193,7 +193,7 @@ fn gltf_values_arrive() {
 
 #[test]
 fn declarations_are_consistent() {
-    fn check<F: Family + Clone + PartialEq + std::fmt::Debug>(family: &str) {
+    fn check<F: ParameterSet + Clone + PartialEq + std::fmt::Debug>(family: &str) {
         let mut names = std::collections::HashSet::new();
         for parameter in F::PARAMETERS {
             assert!(names.insert(parameter.name), "{family}: {} twice", parameter.name);

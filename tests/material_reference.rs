@@ -3,12 +3,10 @@
 
 use glam::DVec3;
 use std::f64::consts::PI;
-use vair::material::reference::albedo::{
-    Fit, directional_albedo, gauss_legendre, largest_roughness_power, scaled_cosine,
-};
-use vair::material::reference::ggx::*;
-use vair::material::reference::standard::Surface;
-use vair::material::reference::{color, tonemap};
+use vair::measure::twin::albedo::{Fit, directional_albedo, gauss_legendre, largest_roughness_power, scaled_cosine};
+use vair::measure::twin::ggx::*;
+use vair::measure::twin::standard::Surface;
+use vair::measure::twin::{color, tone_mapping};
 
 /// Seeded numbers in [0, 1): SplitMix64 (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
 fn random() -> impl FnMut() -> f64 {
@@ -326,8 +324,12 @@ fn diffuse_is_reciprocal_and_light_is_linear() {
 #[test]
 fn tone_maps_are_monotone_bounded_and_finite() {
     type Curve = fn(DVec3) -> DVec3;
-    let curves: [(&str, Curve); 4] =
-        [("none", tonemap::none), ("aces", tonemap::aces), ("agx", tonemap::agx), ("neutral", tonemap::neutral)];
+    let curves: [(&str, Curve); 4] = [
+        ("none", tone_mapping::none),
+        ("aces", tone_mapping::aces),
+        ("agx", tone_mapping::agx),
+        ("neutral", tone_mapping::neutral),
+    ];
     let mut next = random();
     for (name, curve) in curves {
         let mut before = -1.0;
@@ -355,7 +357,7 @@ fn neutral_keeps_colours_below_its_start() {
     let mut next = random();
     for _ in 0..10_000 {
         let color = DVec3::new(next(), next(), next()) * 0.8;
-        let shown = tonemap::neutral(color);
+        let shown = tone_mapping::neutral(color);
         let least = color.min_element();
         let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
         if color.max_element() - offset < 0.76 {

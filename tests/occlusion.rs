@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use std::f64::consts::PI;
-use vair::material::reference::{ggx, occlusion};
+use vair::measure::twin::{ggx, occlusion};
 
 /// Steps of the occlusion, ends left out.
 const STEPS: usize = 20;

@@ -7,21 +7,23 @@ mod headless;
 
 use glam::{DVec2, DVec3, Vec3};
 use vair::FrameOptions;
-use vair::material::reference::albedo::gauss_legendre;
-use vair::material::reference::hash;
-use vair::material::reference::strand::{Strand, cross_section, slab_opacity, width};
-use vair::oracle::{Coat, Corner, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render};
+use vair::measure::oracle::{
+    Corner, FurGeometry, Hit, OracleError, OracleOptions, OraclePicture, Ray, Triangle, render,
+};
+use vair::measure::twin::albedo::gauss_legendre;
+use vair::measure::twin::hash;
+use vair::measure::twin::strand::{Strand, cross_section, slab_opacity, width};
 use vair::render::{Shadows, ShellAlpha, ShellSampling, Shells};
-use vair::scene::{self, Camera, CameraChoice, Lighting, Pose, Scene, Surroundings};
+use vair::scene::{self, Camera, CameraChoice, EnvironmentLight, Lighting, Pose, Scene};
 
 /// Three numbers in [0, 1).
 fn random(stream: i32, index: usize) -> DVec3 {
     DVec3::from_array(hash::cell([stream, index as i32, 77]))
 }
 
-/// A coat like a preset's.
-fn cone() -> Coat {
-    Coat { radius: 0.35, cutoff_end: 1.0, ..Coat::default() }
+/// Fur like a preset's.
+fn cone() -> FurGeometry {
+    FurGeometry { radius: 0.35, cutoff_end: 1.0, ..FurGeometry::default() }
 }
 
 /// Two triangles of a flat skin in the XY plane, `side` spacings wide, one metre a spacing, with straight strands.
@@ -65,10 +67,10 @@ fn curved(bend: f64) -> Vec<Triangle> {
 }
 
 /// The nearest hit over all triangles, and whose it is.
-fn first_hit<'a>(coat: &Coat, triangles: &'a [Triangle], ray: &Ray) -> Option<(Hit, &'a Triangle)> {
+fn first_hit<'a>(fur: &FurGeometry, triangles: &'a [Triangle], ray: &Ray) -> Option<(Hit, &'a Triangle)> {
     triangles.iter().fold(None, |best: Option<(Hit, &Triangle)>, triangle| {
         let limit_m = best.map_or(ray.length_m, |(hit, _)| hit.distance_m);
-        coat.first_hit(triangle, ray, limit_m).map(|hit| (hit, triangle)).or(best)
+        fur.first_hit(triangle, ray, limit_m).map(|hit| (hit, triangle)).or(best)
     })
 }
 
@@ -85,7 +87,7 @@ fn meet(ray: &Ray, corners: [DVec3; 3]) -> Option<(f64, DVec3)> {
 }
 
 /// The first hit among many shells.
-fn march(coat: &Coat, triangles: &[Triangle], ray: &Ray, shells: usize) -> Option<f64> {
+fn march(fur: &FurGeometry, triangles: &[Triangle], ray: &Ray, shells: usize) -> Option<f64> {
     let mut nearest: Option<f64> = None;
     for triangle in triangles {
         for shell in 0..=shells {
@@ -93,7 +95,7 @@ fn march(coat: &Coat, triangles: &[Triangle], ray: &Ray, shells: usize) -> Optio
             let met = meet(ray, triangle.each_ref().map(|corner| corner.at(height)));
             let Some((distance_m, barycentric)) = met else { continue };
             let is_nearer = nearest.is_none_or(|nearest| distance_m < nearest);
-            if is_nearer && coat.profile(triangle, barycentric, height).0 >= coat.threshold(height) {
+            if is_nearer && fur.profile(triangle, barycentric, height).0 >= fur.threshold(height) {
                 nearest = Some(distance_m);
             }
         }
@@ -104,13 +106,17 @@ fn march(coat: &Coat, triangles: &[Triangle], ray: &Ray, shells: usize) -> Optio
 #[test]
 fn hits_are_the_first_of_a_fine_march() {
     let shells = 1500;
-    let coats = [
+    let furs = [
         ("straight", 0.0, cone()),
         ("bent", 0.9, cone()),
-        ("paraboloid", 0.5, Coat { is_paraboloid: true, taper: 0.6, cutoff_start: 0.1, cutoff_end: 0.7, ..cone() }),
-        ("locks", 0.4, Coat { clump: 0.6, curl: 0.5, ..cone() }),
+        (
+            "paraboloid",
+            0.5,
+            FurGeometry { is_paraboloid: true, taper: 0.6, cutoff_start: 0.1, cutoff_end: 0.7, ..cone() },
+        ),
+        ("locks", 0.4, FurGeometry { clump: 0.6, curl: 0.5, ..cone() }),
     ];
-    for (name, bend, coat) in coats {
+    for (name, bend, fur) in furs {
         let triangles = curved(bend);
         let (mut hits, mut thin) = (0, 0);
         for index in 0..60 {
@@ -118,11 +124,11 @@ fn hits_are_the_first_of_a_fine_march() {
             let origin = DVec3::new(2.4 * from.x, 2.4 * from.y, 0.4 + from.z);
             let direction = (DVec3::new(0.9 * to.x, 0.9 * to.y, 0.2 * to.z) - origin).normalize();
             let ray = Ray::new(origin, direction, f64::INFINITY);
-            let found = first_hit(&coat, &triangles, &ray);
-            let marched = march(&coat, &triangles, &ray, shells);
+            let found = first_hit(&fur, &triangles, &ray);
+            let marched = march(&fur, &triangles, &ray, shells);
             if let Some((hit, triangle)) = found {
-                let profile = coat.profile(triangle, hit.barycentric, hit.height).0;
-                assert!(profile >= coat.threshold(hit.height) - 1e-9, "{name} {index}: {hit:?} is no strand");
+                let profile = fur.profile(triangle, hit.barycentric, hit.height).0;
+                assert!(profile >= fur.threshold(hit.height) - 1e-9, "{name} {index}: {hit:?} is no strand");
                 let [a, b, c] = triangle.each_ref().map(|corner| corner.at(hit.height));
                 let place = a * hit.barycentric.x + b * hit.barycentric.y + c * hit.barycentric.z;
                 let off = (place - ray.at(hit.distance_m)).length();
@@ -166,7 +172,7 @@ fn inside_cone(at: DVec2, step: DVec2, radius: f64, tip: f64) -> Option<[f64; 2]
 
 #[test]
 fn straight_cones_are_met_where_the_closed_form_says() {
-    let (coat, side, length_m) = (cone(), 12.0, 4.0);
+    let (fur, side, length_m) = (cone(), 12.0, 4.0);
     let triangles = flat(side, length_m);
     let mut hits = 0;
     for index in 0..400 {
@@ -185,11 +191,11 @@ fn straight_cones_are_met_where_the_closed_form_says() {
             let strand = Strand::of_cell(cell);
             let (offset, shrink) = strand.offset(start.extend(0.3), DVec3::Z);
             if shrink > 0.0 {
-                let ends = inside_cone(-offset.truncate(), step, coat.radius * shrink, strand.full_length());
+                let ends = inside_cone(-offset.truncate(), step, fur.radius * shrink, strand.full_length());
                 first = first.into_iter().chain(ends.map(|ends| ends[1])).reduce(f64::max);
             }
         }
-        let found = first_hit(&coat, &triangles, &ray).map(|(hit, _)| hit.height);
+        let found = first_hit(&fur, &triangles, &ray).map(|(hit, _)| hit.height);
         hits += usize::from(found.is_some());
         let agrees = match (first, found) {
             (Some(first), Some(found)) => (first - found).abs() < 1e-9,
@@ -204,12 +210,12 @@ fn straight_cones_are_met_where_the_closed_form_says() {
 fn seen_from_above_the_coverage_is_the_closed_forms() {
     let triangles = flat(1000.0, 2.0);
     for (radius, cutoff_start) in [(0.15, 0.0), (0.15, 0.2), (0.2, 0.1)] {
-        let coat = Coat { radius, cutoff_start, ..cone() };
+        let fur = FurGeometry { radius, cutoff_start, ..cone() };
         let count = 30_000;
         let hits = (0..count).filter(|&index| {
             let foot = random(4, index) * 1000.0;
             let ray = Ray::new(DVec3::new(foot.x, foot.y, 9.0), DVec3::NEG_Z, f64::INFINITY);
-            first_hit(&coat, &triangles, &ray).is_some()
+            first_hit(&fur, &triangles, &ray).is_some()
         });
         let found = hits.count() as f64 / count as f64;
         let expected = slab_opacity(cross_section(cutoff_start, radius), 0.0, 0.0);
@@ -267,9 +273,9 @@ fn point_layers_lose_light_by_the_bias_law() {
 /// Radiance through a smooth density: light of a colour that changes with height, dimmed by what is above.
 #[test]
 fn smooth_density_converges_with_the_order_of_its_opacity() {
-    let coat = Coat { radius: 0.4, ..cone() };
+    let fur = FurGeometry { radius: 0.4, ..cone() };
     // Up to where the first strands end, and the density has a kink.
-    let density = |height: f64| 4.0 * width(coat.threshold(0.7 * height), coat.radius);
+    let density = |height: f64| 4.0 * width(fur.threshold(0.7 * height), fur.radius);
     let color = |height: f64| 0.2 + 0.8 * height * height;
     let rule = gauss_legendre(48);
     let integral = |low: f64, high: f64, value: &dyn Fn(f64) -> f64| -> f64 {
@@ -293,7 +299,7 @@ fn smooth_density_converges_with_the_order_of_its_opacity() {
     assert!((linear + 1.0).abs() <= 0.15, "linear opacity converges with order {linear}");
 }
 
-/// A view of the gallery whose coats have a limit.
+/// A view of the gallery whose fur has a limit.
 struct View {
     scene: Scene,
     pose: Pose,
@@ -308,8 +314,8 @@ impl View {
             (fur.edge_fade, fur.tip_fade) = (0.0, 0.0);
         }
         let pose = scene::pose(scene.asset(), None, 0.0);
-        let surroundings = Surroundings::constant(Vec3::splat(0.05));
-        let lighting = Lighting { lights: scene::lights(scene.asset(), 0, &pose), surroundings };
+        let environment = EnvironmentLight::constant(Vec3::splat(0.05));
+        let lighting = Lighting { lights: scene::lights(scene.asset(), 0, &pose), environment };
         let target = Some(Vec3::new(0.0, 0.36, 0.0));
         let choice = CameraChoice::Orbit { theta_deg: 20.0, phi_deg: 75.0, radius_m: Some(0.6), target, fov_deg: 24.0 };
         Self { scene, pose, lighting, choice }
@@ -364,7 +370,7 @@ fn what_has_no_limit_is_refused() {
     let fur = view.scene.materials_mut().iter_mut().find_map(|material| material.fur.as_mut()).unwrap();
     fur.tip_fade = 0.1;
     let error = view.oracle(small).unwrap_err().to_string();
-    assert!(error.starts_with("material \"fur\": only cut-out coats have a limit"), "{error}");
+    assert!(error.starts_with("material \"fur\": only cut-out fur has a limit"), "{error}");
 }
 
 /// A hand's breadth of the knot, strands a few pixels wide: from afar the renderer shows means instead of strands. Its own
@@ -378,7 +384,7 @@ fn the_densest_stack_of_shells_comes_near() {
     let exact = view.oracle(OracleOptions { size, samples: 16, seed: 5 }).unwrap();
     let shells = Shells { sampling: ShellSampling::Slab, alpha: ShellAlpha::Step, ..Shells::default() };
     let camera = view.choice.clone();
-    let surroundings = view.lighting.surroundings.clone();
+    let environment = view.lighting.environment.clone();
     // Of which the oracle knows nothing.
     let shadows = Shadows { are_cast: false, ..Shadows::default() };
     let options = FrameOptions {
@@ -387,7 +393,7 @@ fn the_densest_stack_of_shells_comes_near() {
         layers: Some(256),
         shells,
         msaa: 1,
-        surroundings,
+        environment,
         shadows,
         ..FrameOptions::default()
     };

@@ -7,9 +7,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use vair::gpu::{Gpu, GpuOptions};
-use vair::report::metric::{Radiance, change_error, noise, picture_error};
-use vair::report::statistics::{Spread, log_log_slope, pareto_front};
-use vair::report::{self, Effort, Method, Question, Report, ReportError, View};
+use vair::measure::report::metric::{Radiance, change_error, noise, picture_error};
+use vair::measure::report::statistics::{Spread, log_log_slope, pareto_front};
+use vair::measure::report::{self, Effort, Method, Report, ReportError, Sweep, View};
 
 const SIZE: [u32; 2] = [16, 16];
 
@@ -121,7 +121,7 @@ fn tiny_report() -> Report {
         time_limit: None,
         furnace_points: 1,
     };
-    let question = Question {
+    let sweep = Sweep {
         name: "fur layers",
         methods: vec![Method::ours(), Method::classic_draws()],
         layers: effort.layers.clone(),
@@ -130,7 +130,7 @@ fn tiny_report() -> Report {
     };
     let gpu = Gpu::new(&GpuOptions { validate: true, ..GpuOptions::default() }).unwrap();
     let mut stages = Vec::new();
-    let report = report::measure(&gpu, &[question], &effort, &mut |stage, done, count| {
+    let report = report::measure(&gpu, &[sweep], &effort, &mut |stage, done, count| {
         assert!(done < count);
         if stages.last() != Some(&stage) {
             stages.push(stage);
@@ -224,12 +224,12 @@ fn check_json(json: &Value) {
         "satin gains light"
     );
     assert!(furnace.iter().all(|property| property["classic"] == true || property["pass"] == true));
-    // 8, 32 and the coat's own layers are measured for the headline whatever the questions ask for.
-    let headline = json["headline"].as_object().unwrap();
-    let keys: Vec<&str> = headline.keys().map(String::as_str).collect();
+    // 8, 32 and the fur's own layers are measured for the summary whatever the sweeps ask for.
+    let summary = json["headline"].as_object().unwrap();
+    let keys: Vec<&str> = summary.keys().map(String::as_str).collect();
     assert_eq!(keys, ["fur_equal_error_speedup", "fur_layers_4x_cost", "fur_vs_one_layer"]);
-    assert!(headline["fur_layers_4x_cost"].as_f64().unwrap() > 1.0, "{headline:?}");
-    assert!(headline["fur_vs_one_layer"].as_f64().unwrap() > 0.0, "{headline:?}");
+    assert!(summary["fur_layers_4x_cost"].as_f64().unwrap() > 1.0, "{summary:?}");
+    assert!(summary["fur_vs_one_layer"].as_f64().unwrap() > 0.0, "{summary:?}");
 }
 
 #[test]

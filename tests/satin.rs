@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::ggx;
-use vair::material::reference::satin::Satin;
-use vair::verify::claims;
+use vair::measure::furnace::checks;
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::ggx;
+use vair::measure::twin::satin::Satin;
 
 const SILK: Satin = Satin {
     base_color: DVec3::new(0.5, 0.1, 0.1),
@@ -44,11 +44,11 @@ fn satin_mixture() {
         }
     }
     // Two ways, strength 0 to 30: the furnace.
-    let claims = claims();
+    let checks = checks();
     for property in ["directional albedo", "directional albedo, two ways"] {
-        let of_satin = |claim: &&vair::verify::Claim| claim.material == "satin" && !claim.classic;
-        let claim = claims.iter().filter(of_satin).find(|claim| claim.property == property).unwrap();
-        let judged = claim.judge(200);
+        let of_satin = |check: &&vair::measure::furnace::PropertyCheck| check.material == "satin" && !check.classic;
+        let check = checks.iter().filter(of_satin).find(|check| check.property == property).unwrap();
+        let judged = check.judge(200);
         assert!(judged.pass && judged.limit == Some(1.001), "{judged}");
     }
 }

@@ -19,8 +19,8 @@ fn gallery_objects() -> Vec<(String, [Vec3; 2], f32)> {
     let gallery = procedural::gallery();
     let pose = scene::pose(&gallery, None, 0.0);
     let clip_from_world = hero(&gallery, 16.0 / 9.0).clip_from_world();
-    let objects = scene::instances(&gallery, 0, &pose, None).into_iter().map(|instance| {
-        let primitive = &gallery.meshes[instance.mesh].primitives[instance.primitive];
+    let objects = scene::instances(&gallery, 0, &pose).into_iter().map(|instance| {
+        let [primitive] = &gallery.meshes[instance.mesh].primitives[..] else { panic!("one primitive") };
         let in_world: Vec<Vec3> =
             primitive.vertices.positions.iter().map(|&p| instance.world_from_object.transform_point3(p)).collect();
         // What the floor hides does not count.
@@ -28,7 +28,7 @@ fn gallery_objects() -> Vec<(String, [Vec3; 2], f32)> {
         let low = in_clip().reduce(Vec3::min).expect("vertices");
         let high = in_clip().reduce(Vec3::max).expect("vertices");
         let bottom = in_world.iter().map(|p| p.y).fold(f32::INFINITY, f32::min);
-        (gallery.nodes[instance.node].name.clone().expect("a name"), [low, high], bottom)
+        (gallery.nodes[instance.node.expect("a node")].name.clone().expect("a name"), [low, high], bottom)
     });
     objects.filter(|(name, ..)| name != "backdrop").collect()
 }
@@ -142,7 +142,7 @@ fn a_skinned_box_moves_with_its_joint_and_so_does_the_framing() {
         let asset = animated_box(scale_x);
         let clip = scene::find_animation(&asset, "carry").expect("the clip");
         let pose = scene::pose(&asset, Some(clip), 0.5);
-        let [instance] = &scene::instances(&asset, 0, &pose, None)[..] else { panic!("one instance") };
+        let [instance] = &scene::instances(&asset, 0, &pose)[..] else { panic!("one instance") };
         assert_eq!(instance.mirrored, scale_x < 0.0);
         let joints = scene::joint_matrices(&asset, 0, &pose);
         let deformed = scene::deform(&asset.meshes[0].primitives[0], &joints, &instance.morph_weights);

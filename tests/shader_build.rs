@@ -17,8 +17,17 @@ mod include;
 #[path = "../build/interface.rs"]
 mod interface;
 #[allow(dead_code)]
+#[path = "../build/key.rs"]
+mod key;
+#[allow(dead_code)]
 #[path = "../build/layout.rs"]
 mod layout;
+#[allow(dead_code)]
+#[path = "../build/pack.rs"]
+mod pack;
+#[allow(dead_code)]
+#[path = "../build/parallel.rs"]
+mod parallel;
 #[allow(dead_code)]
 #[path = "../build/permutation.rs"]
 mod permutation;
@@ -26,33 +35,64 @@ mod permutation;
 mod spirv;
 
 use interface::{Binding, BindingKind, Field, FieldType, Interface, Slot, Struct};
-use permutation::Permutation;
+use permutation::{List, Permutation};
 use std::path::Path;
 
+/// The list with that line and what it defines.
+fn list(line: &str) -> List {
+    let defines = line.split_whitespace().skip(1).map(|word| word.trim_matches(['[', ']']));
+    let defines: String = defines.map(|name| format!("define {name} Something.\n")).collect();
+    permutation::parse(&format!("{defines}{line}\n")).unwrap()
+}
+
 fn one(line: &str) -> Permutation {
-    permutation::parse(line).unwrap().remove(0)
+    list(line).permutations.remove(0)
 }
 
 #[test]
 fn a_permutation_has_one_name_in_the_list_and_one_in_rust() {
-    let list = permutation::parse("# fur\n\nfur.frag UV LAYERS=3 # two\nfur.vert\n").unwrap();
-    assert_eq!(list.iter().map(Permutation::name).collect::<Vec<_>>(), ["fur.frag+UV+LAYERS=3", "fur.vert"]);
-    assert_eq!(list[0].ident(), "FUR_FRAG_UV_LAYERS_3");
-    assert_eq!((list[0].stem(), list[1].line), ("fur", 4));
+    let text = "define UV Streams. # one\ndefine COLOR A colour.\n# fur\n\nfur.frag UV [COLOR] # two\nfur.vert\n";
+    let list = permutation::parse(text).unwrap();
+    let names: Vec<_> = list.permutations.iter().map(Permutation::name).collect();
+    assert_eq!(names, ["fur.frag+UV", "fur.frag+UV+COLOR", "fur.vert"]);
+    assert_eq!((list.permutations[0].stem(), list.permutations[2].line), ("fur", 6));
+    let keys = key::Keys::new(&list).unwrap();
+    let literal = "super::ShaderKey::new(super::ShaderFile::FurFrag, super::Defines(0x3))";
+    assert_eq!(keys.literal(&list.permutations[1]), literal);
+    let generated = keys.generate();
+    let bit = "    /// A colour.\n    pub const COLOR: Self = Self(1 << 1);\n";
+    assert!(generated.contains(bit) && generated.contains("Self::FurVert => \"fur.vert\""), "{generated}");
 }
 
 #[test]
 fn bad_lines_are_all_reported_with_their_number() {
-    let errors = permutation::parse("a.frag\na.geom\na.frag 3D\na.frag\n3d.frag\n").unwrap_err();
+    let text = "define UV Streams.\ndefine COLOR A colour.\ndefine 3D Depth.\ndefine MAPS\na.frag\na.geom\n\
+                a.frag MAPS\na.frag COLOR UV\na.frag\n3d.frag\n";
     assert_eq!(
-        errors,
+        permutation::parse(text).unwrap_err(),
         [
-            "shaders_glsl/permutations:2: `a.geom` must end in .vert, .frag or .comp",
             "shaders_glsl/permutations:3: `3D` is not the name of a define",
-            "shaders_glsl/permutations:4: `a.frag` has the same Rust name as line 1",
-            "shaders_glsl/permutations:5: `3d.frag` must start with a letter",
+            "shaders_glsl/permutations:4: say what of an interface `MAPS` changes",
+            "shaders_glsl/permutations:6: `a.geom` must end in .vert, .frag or .comp",
+            "shaders_glsl/permutations:7: `MAPS` has no define line above",
+            "shaders_glsl/permutations:8: `a.frag+COLOR+UV` has its defines in another order than their own lines",
+            "shaders_glsl/permutations:9: `a.frag` is in line 5, too",
+            "shaders_glsl/permutations:10: `3d.frag` must start with a letter",
         ]
     );
+    let many: String = (0..65).map(|define| format!("define D{define} Something.\n")).collect();
+    let error = key::Keys::new(&permutation::parse(&many).unwrap()).unwrap_err();
+    assert_eq!(error, "shaders_glsl/permutations: 65 defines, of which only 64 fit");
+}
+
+#[test]
+fn modules_of_a_file_share_packs_that_are_no_larger_than_they_may_be() {
+    let (small, large) = (vec![1, 2, 3], vec![4; 250_000]);
+    let modules = [("a", &small), ("a", &large), ("a", &large), ("b", &small), ("b", &small)];
+    let packs = pack::Packs::new(modules.into_iter().map(|(group, words)| (group, &words[..])));
+    let places: Vec<_> = packs.places.iter().map(|place| (place.pack, place.first_word, place.word_count)).collect();
+    assert_eq!(places, [(0, 0, 3), (0, 3, 250_000), (1, 0, 250_000), (2, 0, 3), (2, 3, 3)]);
+    assert_eq!(packs.packs[2], [1, 2, 3, 1, 2, 3]);
 }
 
 /// A `shaders_glsl` folder with these files.
@@ -77,10 +117,10 @@ fn includes_and_defines_expand_with_their_lines() {
         ("pass/a.frag", "// doc\n#version 460\n#include \"b.glsl\"\nvoid main() {}\n"),
         ("lib/b.glsl", "float b;\n"),
     ]);
-    let text = include::expand(&one("a.frag UV N=3"), &root.path().join("pass"), root.path()).unwrap();
+    let text = include::expand(&one("a.frag UV N"), &root.path().join("pass"), root.path()).unwrap();
     assert_eq!(
         relative(&text, root.path()),
-        "// doc\n#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n#define UV 1\n#define N 3\n\
+        "// doc\n#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n#define UV 1\n#define N 1\n\
          #line 3 \"pass/a.frag\"\n#line 1 \"lib/b.glsl\"\nfloat b;\n#line 4 \"pass/a.frag\"\nvoid main() {}\n"
     );
 }
@@ -159,16 +199,25 @@ fn reflection_does_without_constant_operations_and_sample_masks() {
     assert_eq!([1, 3, 6].map(|class| variables(&simple, class)), [0, 1, 2]);
 }
 
+#[cfg(not(feature = "bundled-glslang"))]
+#[test]
+fn what_the_program_carries_has_no_names() {
+    let text = "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() {\n    color = vec4(1.0);\n}\n";
+    let root = tree(&[("pass/a.frag", text)]);
+    let compiler = compile::Compiler::find().unwrap();
+    let glsl = include::expand(&one("a.frag"), &root.path().join("pass"), root.path()).unwrap();
+    let words = compiler.compile(&one("a.frag"), &glsl, root.path()).unwrap();
+    let stripped = spirv::stripped(&words);
+    assert_eq!(stripped[..5], words[..5]);
+    let opcodes = |words: &[u32]| spirv::instructions(words).map(|words| words[0] & 0xffff).collect::<Vec<_>>();
+    // OpSource, OpSourceExtension and OpName.
+    let kept = opcodes(&words).into_iter().filter(|opcode| ![3, 4, 5].contains(opcode)).collect::<Vec<_>>();
+    assert!(opcodes(&words).contains(&5));
+    assert_eq!(opcodes(&stripped), kept);
+}
+
 fn interface() -> Interface {
-    Interface {
-        bindings: Vec::new(),
-        push_constant_bytes: 0,
-        constants: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        workgroup_size: [0; 3],
-        structs: Vec::new(),
-    }
+    Interface::default()
 }
 
 fn binding(name: &str, kind: BindingKind) -> Interface {
@@ -209,6 +258,17 @@ fn a_fragment_shader_reads_what_its_vertex_shader_writes() {
     assert_eq!(
         check(slot(0, "vec3")).unwrap_err(),
         ["a.frag+UV: reads vec3 `uv` at location 0, where a.vert+UV writes vec2"]
+    );
+}
+
+#[test]
+fn a_define_that_merely_switches_code_is_refused() {
+    let (plain, switched, bound) = (one("a.frag"), one("a.frag FAST"), one("a.frag UV"));
+    let map = binding("base", BindingKind::Texture);
+    assert_eq!(interface::check([(&plain, &interface()), (&bound, &map)].into_iter()), Ok(()));
+    assert_eq!(
+        interface::check([(&plain, &map), (&switched, &map)].into_iter()).unwrap_err(),
+        ["a.frag+FAST: `FAST` changes nothing of the interface of a.frag: make it a specialization constant"]
     );
 }
 

@@ -6,6 +6,7 @@ mod permutation;
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use vair::math::fnv1a;
 use vair::shader::{Shader, Stage, table};
 
 /// First word of every SPIR-V module.
@@ -22,10 +23,20 @@ fn shaders_glsl() -> std::path::PathBuf {
 #[test]
 fn every_permutation_is_in_the_table_once() {
     let text = std::fs::read_to_string(shaders_glsl().join("permutations")).unwrap();
-    let listed: Vec<_> = permutation::parse(&text).unwrap().iter().map(permutation::Permutation::name).collect();
-    let built: Vec<_> = table::ALL.iter().map(|shader| shader.name).collect();
-    assert_eq!(built, listed);
-    assert_eq!(built.iter().collect::<BTreeSet<_>>().len(), built.len());
+    let listed: Vec<_> =
+        permutation::parse(&text).unwrap().permutations.iter().map(permutation::Permutation::name).collect();
+    let built: Vec<_> = table::ALL.iter().map(|(_, shader)| shader.name.to_owned()).collect();
+    assert_eq!(built.len(), listed.len());
+    assert_eq!(BTreeSet::from_iter(built), BTreeSet::from_iter(listed));
+}
+
+/// What a build without a compiler has for host structs.
+#[test]
+fn the_kept_layout_is_that_of_the_shaders() {
+    let [built, kept] = [Path::new(env!("OUT_DIR")), &Path::new(env!("CARGO_MANIFEST_DIR")).join("build")]
+        .map(|folder| folder.join("shader_layout.rs"));
+    let is_current = std::fs::read(&built).unwrap() == std::fs::read(&kept).unwrap();
+    assert!(is_current, "host structs have changed: cp {} {}", built.display(), kept.display());
 }
 
 #[test]
@@ -38,16 +49,17 @@ fn every_pass_file_is_built() {
         if file.ends_with(".glsl") {
             continue;
         }
-        let is_built = table::ALL.iter().any(|shader| shader.name.split('+').next() == Some(file.as_str()));
+        let is_built = table::ALL.iter().any(|(key, _)| key.file.name() == file);
         assert!(is_built, "shaders_glsl/pass/{file} has no line in shaders_glsl/permutations");
     }
 }
 
 #[test]
 fn every_shader_keeps_to_the_shared_limits() {
-    for shader in table::ALL {
-        let Shader { name, stage, spirv, bindings, push_constant_bytes, constants, inputs, workgroup_size } = shader;
-        assert!(spirv.starts_with(&SPIRV_MAGIC.to_le_bytes()) && spirv.len() % 4 == 0, "{name}");
+    for (_, shader) in table::ALL {
+        let Shader { name, stage, bindings, push_constant_bytes, constants, inputs, workgroup_size, .. } = shader;
+        assert_eq!(shader.spirv().first(), Some(&SPIRV_MAGIC), "{name}");
+        assert_eq!(fnv1a([bytemuck::cast_slice(shader.spirv())]), shader.spirv_hash, "{name}");
         assert!(*push_constant_bytes <= MAX_PUSH_CONSTANT_BYTES && push_constant_bytes % 4 == 0, "{name}");
         assert!(bindings.is_sorted_by(|a, b| (a.set, a.binding) < (b.set, b.binding)), "{name}");
         assert!(bindings.iter().all(|binding| binding.set < MAX_SETS && !binding.name.is_empty()), "{name}");

@@ -4,11 +4,11 @@
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
-use vair::material::reference::albedo::gauss_legendre;
-use vair::material::reference::fuzz::Surface;
-use vair::material::reference::sheen::{self, Lobe, SMALLEST_CHARLIE_ALPHA};
 use vair::material::{Sheen, SheenTable};
-use vair::verify::{Property, claims};
+use vair::measure::furnace::{Property, checks};
+use vair::measure::twin::albedo::gauss_legendre;
+use vair::measure::twin::fuzz::Surface;
+use vair::measure::twin::sheen::{self, Lobe, SMALLEST_CHARLIE_ALPHA};
 
 /// What a material may choose.
 const MODELS: [Sheen; 3] = [Sheen::Volume, Sheen::Charlie, Sheen::Inverted];
@@ -28,10 +28,10 @@ fn over_hemisphere(points: usize, value: impl Fn(DVec3) -> f64) -> f64 {
     rule.iter().map(|&(u, weight)| weight * 6.0 * PI * u * u * ring(u)).sum()
 }
 
-fn claimed(material: &str, property: &str, random: usize) -> Property {
-    let claims = claims();
-    let claim = claims.iter().find(|c| !c.classic && (c.material, c.property) == (material, property));
-    claim.unwrap_or_else(|| panic!("{material}: {property}")).judge(random)
+fn checked(material: &str, property: &str, random: usize) -> Property {
+    let checks = checks();
+    let check = checks.iter().find(|c| !c.classic && (c.material, c.property) == (material, property));
+    check.unwrap_or_else(|| panic!("{material}: {property}")).judge(random)
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn sheen_norm() {
         let norm = over_hemisphere(192, |h| sheen::charlie_ndf(h, alpha) * h.z);
         assert!((norm - 1.0).abs() <= 1e-4, "alpha {alpha}: {norm}");
     }
-    assert!(claimed("sheen", "integral of Charlie's normals, off 1 by", 100).pass);
+    assert!(checked("sheen", "integral of Charlie's normals, off 1 by", 100).pass);
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn velvet_norm() {
         let norm = over_hemisphere(256, |h| sheen::inverted_ndf(h, alpha) * h.z);
         assert!((norm - 1.0).abs() <= 1e-5, "alpha {alpha}: {norm}");
     }
-    assert!(claimed("sheen", "integral of inverted normals, off 1 by", 100).pass);
+    assert!(checked("sheen", "integral of inverted normals, off 1 by", 100).pass);
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn cloth_furnace() {
             "white cloth under others, off 1 by",
             "radiance under white ambient light",
         ] {
-            let property = claimed(material, property, 300);
+            let property = checked(material, property, 300);
             println!("{property}");
             assert!(property.pass, "{property}");
         }
@@ -224,11 +224,11 @@ fn cloth_reciprocity() {
         ("velvet", "base, off reciprocal by"),
         ("sheen", "Charlie and inverted, off reciprocal by"),
     ] {
-        let property = claimed(material, property, 2000);
+        let property = checked(material, property, 2000);
         assert!(property.pass, "{property}");
     }
     // Exempt, and on record.
-    assert!(claimed("sheen", "ltc over itself swapped", 2000).limit.is_none());
+    assert!(checked("sheen", "ltc over itself swapped", 2000).limit.is_none());
 }
 
 #[test]
@@ -251,7 +251,7 @@ fn lut_consistency() {
 #[test]
 fn no_model_returns_more_than_it_gets() {
     for property in ["directional albedo", "albedo, off its table by"] {
-        let property = claimed("sheen", property, 1000);
+        let property = checked("sheen", property, 1000);
         println!("{property}");
         assert!(property.pass, "{property}");
     }

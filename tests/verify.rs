@@ -5,8 +5,9 @@
 
 use std::collections::HashSet;
 use vair::gpu::{Gpu, GpuOptions};
+use vair::measure::twin::{Domain, Limit, Rule, TestInputs, Twin, twins};
+use vair::measure::verify::{self, VerifyError};
 use vair::shader::function;
-use vair::verify::{self, Domain, Limit, Rule, Twin, VerifyError, twins};
 
 /// Seeded inputs a function; the grids of extremes are whole.
 const SAMPLES: u32 = 1 << 13;
@@ -61,7 +62,7 @@ fn planted_faults_fail() {
     on_device(|gpu| {
         let check = |twin: Twin| verify::check(gpu, &twin, 1024).unwrap();
         assert!(check(twin("luminance")).pass);
-        let off = check(Twin { value: |given| vec![given.number() * given.number() + 1e-4], ..twin("ggx_alpha") });
+        let off = check(Twin { value: |inputs| vec![inputs.number() * inputs.number() + 1e-4], ..twin("ggx_alpha") });
         assert!(!off.pass && off.missed > 0 && off.max_rel > off.limit.rel, "{off:?}");
         let exact = check(Twin { limit: Limit::EXACT, ..twin("srgb_from_linear") });
         assert!(!exact.pass && exact.of_limit > 1.0 && exact.nonfinite == 0, "{exact:?}");
@@ -81,8 +82,8 @@ fn a_rule_forgives_rounding_and_nothing_else() {
         let check = |twin: Twin| verify::check(gpu, &twin, SAMPLES).unwrap();
         // A sum may fall on the other side of a step; a count too few is a fault all the same.
         let fault = Twin {
-            value: |given| {
-                let value = (twin_of_masks())(given);
+            value: |inputs| {
+                let value = (twin_of_masks())(inputs);
                 vec![if value[0] == 15.0 { 11.0 } else { value[0] }]
             },
             ..twin("coverage_mask")
@@ -94,7 +95,7 @@ fn a_rule_forgives_rounding_and_nothing_else() {
     });
 }
 
-fn twin_of_masks() -> fn(&mut vair::verify::Given<'_>) -> Vec<f64> {
+fn twin_of_masks() -> fn(&mut TestInputs<'_>) -> Vec<f64> {
     twin("coverage_mask").value
 }
 

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use vair::asset::{Environment, LoadOptions};
 use vair::gpu::GpuOptions;
 use vair::render::{Background, FrameOptions, Renderer, Tonemap};
-use vair::scene::{CameraChoice, Scene, Surroundings};
+use vair::scene::{CameraChoice, EnvironmentLight, Scene};
 
 /// Pictures are drawn this much larger than is listed.
 const SCALE: u32 = 2;
@@ -72,7 +72,7 @@ fn main() -> Result<()> {
     let environment = assets.join("env/lightroom_14b.hdr");
     let (environment, warnings) = Environment::load(&environment, &LoadOptions::default())?;
     warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-    let surroundings = Surroundings::new(Arc::new(environment));
+    let environment = EnvironmentLight::new(Arc::new(environment));
     let mut renderer = Renderer::new(&GpuOptions::default())?;
     let mut all = Vec::new();
     for scenario in scenarios(assets)? {
@@ -81,7 +81,7 @@ fn main() -> Result<()> {
         }
         let goldens = goldens(&assets.join("reference/fidelity_goldens_512").join(&scenario.name))?;
         let [(_, first), ..] = &goldens[..] else { continue };
-        let ours = draw(&mut renderer, &scenario, &surroundings, first.size)?;
+        let ours = draw(&mut renderer, &scenario, &environment, first.size)?;
         if let Some(folder) = &arguments.out {
             std::fs::create_dir_all(folder)?;
             let row: Vec<&Picture> = std::iter::once(&ours).chain(goldens.iter().map(|(_, golden)| golden)).collect();
@@ -173,13 +173,18 @@ fn over_white(rgba: &[u8]) -> Vec<u8> {
     rgba.chunks_exact(4).flat_map(|texel| [0, 1, 2].map(|channel| over(texel[channel], texel[3]))).collect()
 }
 
-fn draw(renderer: &mut Renderer, scenario: &Scenario, surroundings: &Surroundings, size: [u32; 2]) -> Result<Picture> {
+fn draw(
+    renderer: &mut Renderer,
+    scenario: &Scenario,
+    environment: &EnvironmentLight,
+    size: [u32; 2],
+) -> Result<Picture> {
     let scene = Scene::load(&scenario.model, &LoadOptions::default())?;
     let options = FrameOptions {
         size: scenario.size,
         camera: scenario.camera.clone(),
         tonemap: Tonemap::Aces,
-        surroundings: surroundings.clone(),
+        environment: environment.clone(),
         background: if scenario.shows_environment { Background::Environment } else { Background::Transparent },
         ..FrameOptions::default()
     };

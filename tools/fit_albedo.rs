@@ -4,11 +4,11 @@
 //! Minimax fits by iteratively reweighted least squares (Lawson 1961). Limits are unequal on purpose: where a fit is
 //! below the truth the surface would gain energy, so that side is held closer than the other.
 
-use vair::material::reference::albedo::{
+use vair::measure::twin::albedo::{
     AVERAGE_TERMS, FRESNEL_DEGREE, FRESNEL_TERMS, Fit, WHITE_ROWS, directional_albedo, fitted_roughness, fresnel_basis,
     gauss_legendre, largest_roughness_power, scaled_cosine,
 };
-use vair::material::reference::ggx::alpha_of_roughness;
+use vair::measure::twin::ggx::alpha_of_roughness;
 
 struct Sample {
     mu: f64,

@@ -7,7 +7,7 @@
 
 use glam::{DMat4, DVec3, DVec4};
 use std::f64::consts::TAU;
-use vair::material::reference::film::{BANDS, color_of};
+use vair::measure::twin::film::{BANDS, color_of};
 
 /// Costs as much as this error at one path for a weight of 1: without, two equal bands grow apart and cancel.
 const WEIGHT_COST: f64 = 0.02;

@@ -8,9 +8,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use vair::material::reference::albedo::gauss_legendre;
-use vair::material::reference::{hash, sheen};
 use vair::material::{Sheen, SheenEntry, SheenTable};
+use vair::measure::twin::albedo::gauss_legendre;
+use vair::measure::twin::{hash, sheen};
 
 /// Walks a view and roughness. The albedo's standard error is at most 0.5 / sqrt(WALKS) = 0.0007; the texture's own
 /// step is 0.0005.

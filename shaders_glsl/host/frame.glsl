@@ -10,9 +10,9 @@ const uint LIGHT_SPOT = 2;
 const float RADIANCE_LIMIT = 64512.0;
 
 struct FrameUniforms {
-    mat4 clip_from_world;      // reversed Z: 1 at the near plane, 0 far away; Y up
+    mat4 clip_from_world;      // of our own views reversed Z, Y up; of a host's views as the host has it
     vec3 eye_in_world;         // metres
-    float _reserved_2;
+    float pre_exposure;        // factor on all radiance that is written
     vec3 view_in_world;        // unit vector against the view direction; the view vector of a parallel camera
     float orthographic;        // 1 for a parallel camera, 0 for perspective
     vec3 environment_scale;    // linear RGB radiance of a texel of 1 in the environment's map

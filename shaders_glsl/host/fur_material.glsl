@@ -14,7 +14,7 @@ struct FurUniforms {
     float strand_radius;       // root radius of procedural strands over their spacing, in (0, 0.5]
     vec3 force;                // unit direction times strength in [0, 1], world space
     float color_variation;     // brightness variation between strands, in [0, 1]
-    vec2 comb;                 // lie of the coat in the tangent plane, length in [0, 1]
+    vec2 comb;                 // lie of the fur in the tangent plane, length in [0, 1]
     float cutoff_start;        // threshold at the root
     float cutoff_end;          // threshold at the tip
     float edge_fade;           // fades strands at grazing angles, in [0, 1]

@@ -13,6 +13,7 @@ struct ObjectUniforms {
 
 struct ObjectDraw {
     uint object_index;         // entry of the object list
+    uint previous_object_index; // entry of the previous frame's object list
     uint shell;                // number of the shell, where every shell is a draw of its own
     uint vertices_per_shell;   // where the mesh holds its vertices once a shell
     uint first_light;          // entry of the light list

@@ -25,7 +25,7 @@ vec3 cotton_classic_brdf_times_cosine(vec3 base_color, vec3 sheen_color, SheenLo
         + sheen_color * sheen_brdf_times_cosine(SHEEN_CLASSIC, fibre, v, l);
 }
 
-// Share of the surroundings that a lobe sees through a crevice; roughness perceptual, ambient occlusion 1 = open.
+// Share of the environment that a lobe sees through a crevice; roughness perceptual, ambient occlusion 1 = open.
 float cotton_classic_occlusion(float mu_v, float roughness, float occlusion) {
     float sum = mu_v + occlusion;
     float raised = sum <= 0.0 ? 0.0 : pow(sum, roughness * roughness);

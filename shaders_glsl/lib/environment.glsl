@@ -14,7 +14,7 @@ const uint ENVIRONMENT_GGX = 0u;
 // Sheets of that table.
 const uint ENVIRONMENT_SHEETS = 4u;
 // Coefficients of the harmonics: bands 0 to 4.
-const uint ENVIRONMENT_HARMONICS = 25u;
+const uint ENVIRONMENT_IRRADIANCE = 25u;
 
 // A direction of the world as the environment sees it, which is turned about +Y; rotation = cosine and sine, positive
 // right-handed.
@@ -65,7 +65,7 @@ float environment_face_density(vec2 place) {
 }
 
 // Real spherical harmonic, orthonormal over the sphere and without the Condon-Shortley sign; index = l * l + l + m, below
-// ENVIRONMENT_HARMONICS.
+// ENVIRONMENT_IRRADIANCE.
 float environment_sh(uint index, vec3 d) {
     float x2 = d.x * d.x;
     float y2 = d.y * d.y;

@@ -1,10 +1,10 @@
-// How the strands of a coat scatter light: three lobes of one fibre, and what many fibres pass on to each other.
+// How the strands of fur scatter light: three lobes of one fibre, and what many fibres pass on to each other.
 //
 // A fibre reflects light off its cuticle (R, white), lets it through (TT) and returns it from its far side (TRT). Each lobe
 // is a longitudinal lobe about a cone around the tangent times an azimuthal one, both normalised (Marschner et al. 2003,
 // "Light Scattering from Human Hair Fibers"; d'Eon et al. 2011, "An Energy-Conserving Hair Reflectance Model"). What is
-// left of the light goes from fibre to fibre and leaves the coat as diffuse, in the coat's colour (in the manner of Zinke
-// et al. 2008, "Dual Scattering Approximation for Fast Multiple Scattering in Hair"): a white coat loses nothing.
+// left of the light goes from fibre to fibre and leaves the fur as diffuse, in the fur's colour (in the manner of Zinke
+// et al. 2008, "Dual Scattering Approximation for Fast Multiple Scattering in Hair"): white fur loses nothing.
 //
 // The three lobes stand in the components of a vector: x reflected, y returned, z transmitted.
 #ifndef VAIR_FIBRE_GLSL
@@ -20,16 +20,16 @@ const vec3 FIBRE_TILT_SINE = vec3(-0.07991469, 0.11971221, 0.03998933);
 // Means of cos(phi) and of cos(2 phi) around the fibre, phi = 0 at the eye: of cos(phi / 2) / 4 and of sin(phi / 2)^8.
 const vec3 FIBRE_AROUND = vec3(0.33333333, 0.33333333, -0.8);
 const vec3 FIBRE_AROUND_TWICE = vec3(-0.06666667, -0.06666667, 0.4);
-// The body below a coat hides light gradually, between these cosines: strands stand above it, and see past its horizon.
+// The body below fur hides light gradually, between these cosines: strands stand above it, and see past its horizon.
 const float FIBRE_HORIZON = 0.5;
-// Diffuse light wraps this far around the coat's surface.
+// Diffuse light wraps this far around the fur's surface.
 const float FIBRE_WRAP = 0.3;
 // Share of diffuse light that is scattered by the uppermost fibres, and hence around their tangent.
 const float FIBRE_CYLINDRICAL = 0.35;
 
 // What the light does not change.
 struct Fibre {
-    vec3 normal;   // of the coat, unit vector
+    vec3 normal;   // of the fur, unit vector
     vec3 tangent;  // of the strand, unit vector, to its tip
     vec3 across;   // unit vector to the eye across the tangent; 0 where the eye looks along it
     vec3 sine;     // of the angle from the plane across the tangent to the lobes' cones
@@ -86,7 +86,7 @@ vec3 fibre_around(vec3 eye_across, vec3 light_across) {
     return vec3(0.25 * half_cosine, 0.25 * half_cosine, 0.58205236 * ahead * ahead);
 }
 
-// How much light from that cosine the body below the coat lets by. That of the opposite direction is what is missing to 1.
+// How much light from that cosine the body below the fur lets by. That of the opposite direction is what is missing to 1.
 float fibre_horizon(float cosine_to_light) {
     return smoothstep(-FIBRE_HORIZON, FIBRE_HORIZON, cosine_to_light);
 }
@@ -131,14 +131,14 @@ Fibre fibre_to_eye(vec3 normal, vec3 tangent, vec3 to_eye, float specular, float
     return fibre;
 }
 
-// What one way through a fibre leaves of light, for a coat that is to have that colour: absorption by Chiang et al. 2016,
+// What one way through a fibre leaves of light, for fur that is to have that colour: absorption by Chiang et al. 2016,
 // equation 9, at azimuthal roughness 0.3, along the mean chord (1.85 radii, refracted by an index of 1.55).
 vec3 fibre_transmittance(vec3 color) {
     vec3 root = log(clamp(color, 1e-4, 1.0)) / 5.888414;
     return exp(-1.85 * root * root);
 }
 
-// Diffuse light that a coat of that optical depth leaves. The depth is what a white coat shows, light that fibres pass on to
+// Diffuse light that fur of that optical depth leaves. The depth is what white fur shows, light that fibres pass on to
 // each other included; dark fibres pass on less of what they intercept, so that colours deepen towards the root.
 vec3 fibre_passed_on(vec3 color, float depth) {
     return exp(-depth * (1.5 - 0.5 * color));
@@ -150,7 +150,7 @@ vec3 fibre_ahead(vec3 transmittance, float depth) {
     return transmittance * exp(-depth * (1.0 - 0.5 * transmittance));
 }
 
-// Diffuse kernel, per steradian: light around the coat's normal, wrapped, and around the strands' tangent. Its integral over
+// Diffuse kernel, per steradian: light around the fur's normal, wrapped, and around the strands' tangent. Its integral over
 // all directions is 1: the horizon hides half of what a sine around the tangent weighs, whatever the tangent.
 float fibre_diffuse(Fibre fibre, vec3 to_light, float light_cosine) {
     float cosine_to_light = dot(fibre.normal, to_light);
@@ -166,7 +166,7 @@ float fibre_rest(Fibre fibre, float margin) {
     return 1.0 - dot(fibre.share, fibre.seen) - margin * min(0.08 * lobes, 0.024);
 }
 
-// Radiance per unit irradiance of strands of that colour, below a coat of that optical depth along the light. What hides a
+// Radiance per unit irradiance of strands of that colour, below fur of that optical depth along the light. What hides a
 // strand from the eye is drawn, and counts here no more.
 vec3 fibre_scattering(Fibre fibre, vec3 color, vec3 to_light, float depth) {
     float light_sine = dot(fibre.tangent, to_light);
@@ -180,9 +180,9 @@ vec3 fibre_scattering(Fibre fibre, vec3 color, vec3 to_light, float depth) {
         + fibre_passed_on(color, depth) * diffuse;
 }
 
-// The same for surroundings: mean radiance that the diffuse part, the transmitted lobe and the two highlights see; through a
-// coat of that optical depth, on average over all directions.
-vec3 fibre_surroundings(Fibre fibre, vec3 color, vec3 diffuse, vec3 behind, vec3 mirrored, float depth) {
+// The same for an environment: mean radiance that the diffuse part, the transmitted lobe and the two highlights see; through a
+// fur of that optical depth, on average over all directions.
+vec3 fibre_environment(Fibre fibre, vec3 color, vec3 diffuse, vec3 behind, vec3 mirrored, float depth) {
     vec3 lobes = fibre.share * fibre.seen;
     vec3 once = fibre_transmittance(color);
     return exp(-depth) * (lobes.x + lobes.y * once * once) * mirrored + lobes.z * fibre_ahead(once, depth) * behind

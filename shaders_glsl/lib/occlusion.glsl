@@ -1,4 +1,4 @@
-// What a crevice leaves of the surroundings. Functions only. Occlusion is the share of the irradiance of an even sky that
+// What a crevice leaves of the environment. Functions only. Occlusion is the share of the irradiance of an even sky that
 // arrives: 1 = open.
 //
 // Sources: Jimenez et al. 2016, "Practical Real-Time Strategies for Accurate Indirect Occlusion" (light that bounces

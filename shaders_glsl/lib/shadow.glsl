@@ -39,7 +39,7 @@ float shadow_place(float depth, float nearest, float farthest) {
 
 // What one surface of optical depth `optical_depth` at `place` adds to the depths collected up to four knots: right behind
 // the first surface, at a third and two thirds of the way, and right before the last one. Two sheets, the common case,
-// are thus told apart exactly whatever the distance between them; a coat between is read as a line between the knots.
+// are thus told apart exactly whatever the distance between them; fur between is read as a line between the knots.
 // Source: Yuksel & Keyser 2008, "Deep Opacity Maps"; the place of the knots is ours.
 vec4 shadow_layers(float optical_depth, float place) {
     return optical_depth * vec4(lessThanEqual(vec4(place), vec4(SHADOW_AT, 1.0 / 3.0, 2.0 / 3.0, 1.0 - SHADOW_AT)));

@@ -152,12 +152,12 @@ float strand_width(float threshold, float radius) {
 
 // Mean opacity of a slab of strands that stand anywhere, met over `length_in_cells` across them. From above the ray
 // meets the caps that the slab above has not covered already, which `cap` is the area of; from anywhere it meets sides.
-// Shells of one strand thus do not count it twice, and the opacity of a coat does not depend on their number.
+// Shells of one strand thus do not count it twice, and the opacity of fur does not depend on their number.
 float strand_slab_opacity(float cap, float width, float length_in_cells) {
     return 1.0 - exp(-(max(cap, 0.0) + width * length_in_cells));
 }
 
-// Threshold of the strand profile at a height in the coat: a texel belongs to a strand where its profile reaches
+// Threshold of the strand profile at a height in the fur: a texel belongs to a strand where its profile reaches
 // it. paraboloid: strands keep their thickness for longer.
 float strand_threshold(float height, float cutoff_start, float cutoff_end, bool paraboloid) {
     float rise = paraboloid ? height * height : height;
@@ -202,11 +202,11 @@ float strand_bend_angle(vec3 root_direction, vec3 force) {
     return min(strength * to_force, 1.57079633 * sideways);
 }
 
-// The body below a coat is curved: light at its horizon crosses not endlessly much of the coat, and light from this far (as
+// The body below fur is curved: light at its horizon crosses not endlessly much of the fur, and light from this far (as
 // a cosine) below it still reaches the tips.
 const float STRAND_PAST_HORIZON = 0.3;
 
-// Optical depth of the coat above a strand at `height` along the light. At the root, straight down, it is
+// Optical depth of the fur above a strand at `height` along the light. At the root, straight down, it is
 // -ln(1 - occlusion); it falls linearly with height, and slanted light crosses more of it: the chord of a shell around a
 // sphere, 2 / (cosine + sqrt(cosine^2 + 2 depth / radius)) times as much.
 float strand_optical_depth(float height, float occlusion, float cosine_to_light) {

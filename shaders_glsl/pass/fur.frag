@@ -15,12 +15,12 @@
 #ifdef COUNT
 #include "count.glsl"
 #endif
-#ifdef GUIDE
-#include "guide.glsl"
+#ifdef GBUFFER
+#include "gbuffer.glsl"
 #endif
 #ifdef LIST
 #include "object.glsl"
-#include "transparency_append.glsl"
+#include "oit_append.glsl"
 #endif
 
 layout(constant_id = 2) const bool PROJECT_UV = false;   // the mesh has no UVs
@@ -232,7 +232,7 @@ void main() {
     uint samples = SAMPLE_COUNT;
     float unresolved = strand_unresolved(slope);
     int mask = -1;
-#ifdef GUIDE
+#ifdef GBUFFER
     // One sample, and what blends counts where it covers more than half.
     if (BLEND) {
         mask = opacity > 0.5 ? -1 : 0;
@@ -253,10 +253,10 @@ void main() {
     count_fragment(uint(mask), samples, !BLEND);
     radiance = vec4(1.0);
     if (mask == 0) { discard; }
-#elif defined GUIDE
+#elif defined GBUFFER
     if (mask == 0) { discard; }
-    // No light here: the target is the guide's.
-    radiance = guide_texel(normal);
+    // No light here: the target is the G-buffer's.
+    radiance = gbuffer_texel(normal);
 #else
 #ifdef LIST
     vec2 depth_slope = list_slope();
@@ -290,13 +290,13 @@ void main() {
     Fibre fibre = fibre_to_eye(normal, strand, to_eye, fur.specular, fur.transmission, fibre_variance(fur.roughness));
     float depth_all_over = -log(max(1.0 - fur.occlusion * (1.0 - height), 1e-3));
     // Strands know how they hide each other; the screen would count it twice.
-    vec3 sum = fur_surroundings(fibre, color, to_eye, depth_all_over);
+    vec3 sum = fur_environment(fibre, color, to_eye, depth_all_over);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         float depth = strand_optical_depth(height, fur.occlusion, dot(normal, light.direction_in_world));
         sum += light.irradiance * fibre_scattering(fibre, color, light.direction_in_world, depth);
     }
-    sum = min(sum, vec3(RADIANCE_LIMIT));
+    sum = min(sum * frame.pre_exposure, vec3(RADIANCE_LIMIT));
 #ifdef LIST
     radiance = list_append(sum * opacity, vec3(1.0 - opacity), depth_slope, uint(gl_SampleMaskIn[0]), draw.rank);
 #else

@@ -45,7 +45,7 @@ layout(location = 5) in vec4 color;
 #ifdef COMB
 layout(location = 7) in vec3 shell_side;
 #endif
-#ifdef SWAY
+#ifdef STRAND_DYNAMICS
 layout(location = 8) in vec3 sway; // force of the strands' own inertia, of length in [0, 1], world space
 #endif
 
@@ -61,7 +61,7 @@ layout(location = 1) out vec3 root_direction_in_world;
 layout(location = 2) out vec3 strand_in_world;      // tangent of the strand at this height
 layout(location = 3) out vec3 root_in_rest;
 layout(location = 4) out vec3 direction_in_rest;
-layout(location = 5) out vec2 height_and_length;    // height in the coat [0, 1], strand length in metres
+layout(location = 5) out vec2 height_and_length;    // height in the fur [0, 1], strand length in metres
 #ifdef MAPS
 layout(location = 6) out vec4 uv_sets;
 #endif
@@ -78,7 +78,7 @@ struct StrandPlace {
 // What bends strands beside the comb. The strands' own inertia is that of this frame in the previous one, too.
 vec3 bending_force() {
     vec3 total = fur.force;
-#ifdef SWAY
+#ifdef STRAND_DYNAMICS
     total += sway;
 #endif
     return total;
@@ -153,9 +153,9 @@ void main() {
     height_and_length = vec2(height, strand_length);
     gl_Position = frame.clip_from_world * vec4(position_in_world, 1.0);
 #ifdef MOTION
-    mat4 world_from_previous = previous_objects[draw.object_index].world_from_object;
+    mat4 world_from_previous = previous_objects[draw.previous_object_index].world_from_object;
     vec3 was_root = (world_from_previous * vec4(previous_position, 1.0)).xyz;
-    vec3 was_direction = root_direction(previous_objects[draw.object_index], previous_direction);
+    vec3 was_direction = root_direction(previous_objects[draw.previous_object_index], previous_direction);
     vec3 was_side = vec3(0.0);
 #ifdef COMB
     was_side = mat3(world_from_previous) * previous_side;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-// One shell of a coat that casts a shadow, by how densely its strands stand: single ones are finer than texels.
+// One shell of fur that casts a shadow, by how densely its strands stand: single ones are finer than texels.
 #include "frame.glsl"
 #include "object.glsl"
 #include "standard_material.glsl"

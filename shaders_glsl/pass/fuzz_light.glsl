@@ -1,9 +1,9 @@
-// All lights and the surroundings on a cloth with fuzz: what cotton and velvet share. After surface.glsl.
+// All lights and the environment on a cloth with fuzz: what cotton and velvet share. After surface.glsl.
 #ifndef VAIR_FUZZ_LIGHT_GLSL
 #define VAIR_FUZZ_LIGHT_GLSL
 #include "fuzz.glsl"
 #include "sheen_table.glsl"
-#include "surroundings.glsl"
+#include "environment_light.glsl"
 
 // Colours linear in [0, 1]; the pile is as rough as the surface. has_fibre is false where fibre_color is black everywhere.
 vec3 fuzz_radiance(

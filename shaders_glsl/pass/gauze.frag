@@ -5,7 +5,7 @@
 #include "surface.glsl"
 #include "gauze_threads.glsl"
 #include "anisotropy.glsl"
-#include "surroundings.glsl"
+#include "environment_light.glsl"
 
 // The frame of those threads.
 mat3 turned_frame(mat3 world_from_tangent) {

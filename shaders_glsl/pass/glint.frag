@@ -5,7 +5,7 @@
 #define CLOTH
 #include "surface.glsl"
 #include "glint_material.glsl"
-#include "standard_surroundings.glsl"
+#include "standard_environment.glsl"
 #include "glint.glsl"
 
 layout(constant_id = 20) const bool HAS_MASK_MAP = false;
@@ -65,7 +65,7 @@ void main() {
 
     vec3 flakes_ambient = compensated_albedo(glint.flake_color, 1.0, terms) * cover.rgb;
     vec3 flakes_light = mirrored_light(f, f.world_from_tangent, f.eye_in_tangent, glint.flake_roughness, glint.flake_color);
-    vec3 sum = bare * standard_surroundings(f, cloth) + metal * flakes_ambient * flakes_light;
+    vec3 sum = bare * standard_environment(f, cloth) + metal * flakes_ambient * flakes_light;
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;

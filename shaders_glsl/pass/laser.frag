@@ -7,7 +7,7 @@
 #include "laser_material.glsl"
 #include "film.glsl"
 #include "laser.glsl"
-#include "standard_surroundings.glsl"
+#include "standard_environment.glsl"
 
 layout(constant_id = 20) const bool IS_THIN_FILM = false;
 layout(constant_id = 21) const bool IS_SINE = false;
@@ -104,7 +104,7 @@ void main() {
     } else {
         surface = standard_surface(f.base_color * painted_color(f.eye_in_tangent), f.metallic, f.roughness, f.eye_in_tangent.z);
     }
-    vec3 sum = standard_surroundings(f, surface);
+    vec3 sum = standard_environment(f, surface);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;

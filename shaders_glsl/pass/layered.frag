@@ -6,7 +6,7 @@
 #include "layered_material.glsl"
 #include "layered.glsl"
 #include "film.glsl"
-#include "surroundings.glsl"
+#include "environment_light.glsl"
 #include "transparency.glsl"
 #ifdef SHEEN
 #include "sheen_table.glsl"

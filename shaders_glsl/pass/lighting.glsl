@@ -1,4 +1,4 @@
-// What lights a surface: punctual lights, and the surroundings. For every fragment shader that is lit.
+// What lights a surface: punctual lights, and the environment. For every fragment shader that is lit.
 #ifndef VAIR_LIGHTING_GLSL
 #define VAIR_LIGHTING_GLSL
 #include "frame.glsl"

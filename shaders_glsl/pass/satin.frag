@@ -6,7 +6,7 @@
 #include "satin_material.glsl"
 #include "anisotropy.glsl"
 #include "satin.glsl"
-#include "surroundings.glsl"
+#include "environment_light.glsl"
 
 layout(constant_id = 20) const bool HAS_SPECULAR_NOISE_MAP = false;
 layout(constant_id = 21) const bool NARROW = false;    // the narrow lobe is not black
@@ -50,8 +50,8 @@ vec3 weave_albedo(Weave w, vec3 direction) {
     return w.share * value;
 }
 
-// What its lobes send to the eye of their surroundings.
-vec3 weave_surroundings(SurfaceFragment f, Weave w) {
+// What its lobes send to the eye of their environment.
+vec3 weave_environment(SurfaceFragment f, Weave w) {
     vec3 v = f.eye_in_tangent;
     vec2 alpha = vec2(w.warp.alpha_x, w.warp.alpha_y);
     vec3 value = anisotropic_lobe_albedo(w.warp, v) * mirrored_light_along(f, f.world_from_tangent, v, alpha, w.warp.f0);
@@ -77,14 +77,14 @@ vec3 reflected(SurfaceFragment f, float noise) {
         albedo += weave_albedo(narrow, v);
         // That of the weft is the same.
         average += narrow.share * anisotropic_lobe_average_albedo(narrow.warp);
-        sum += weave_surroundings(f, narrow);
+        sum += weave_environment(f, narrow);
     }
     if (SECONDARY) {
         float roughness = f.roughness * satin.secondary_width;
         wide = weave(v, roughness, wide_reflectance, narrow_reflectance, f.base_color, f.metallic);
         albedo += weave_albedo(wide, v);
         average += wide.share * anisotropic_lobe_average_albedo(wide.warp);
-        sum += weave_surroundings(f, wide);
+        sum += weave_environment(f, wide);
     }
     vec3 diffuse = f.base_color * (1.0 - f.metallic);
     vec3 coupled = diffuse * 0.318309886 * (1.0 - albedo) / max(1.0 - average, 1e-4);
@@ -112,7 +112,7 @@ vec3 classic_times_cosine(vec3 f0, float roughness, float anisotropy, vec3 v, ve
     return satin_classic_times_cosine(f0, satin_classic_alpha(roughness, anisotropy), v, l);
 }
 
-vec3 classic_surroundings(SurfaceFragment f, vec3 f0, float roughness, float anisotropy, vec3 tint) {
+vec3 classic_environment(SurfaceFragment f, vec3 f0, float roughness, float anisotropy, vec3 tint) {
     vec3 v = f.eye_in_tangent;
     vec2 alpha = satin_classic_alpha(roughness, anisotropy);
     vec2 terms = anisotropic_albedo_terms(v, min(alpha, 1.0));
@@ -130,12 +130,12 @@ vec3 classic_reflected(SurfaceFragment f, float noise) {
     float a = satin.anisotropy;
     vec3 sum = diffuse_light(f, diffuse) * diffuse;
     if (NARROW) {
-        sum += strength * classic_surroundings(f, f0, f.roughness, a, satin.specular_color);
-        if (TWO_WAY) { sum += strength * classic_surroundings(f, f0, f.roughness, -a, satin.specular_color); }
+        sum += strength * classic_environment(f, f0, f.roughness, a, satin.specular_color);
+        if (TWO_WAY) { sum += strength * classic_environment(f, f0, f.roughness, -a, satin.specular_color); }
     }
     if (SECONDARY) {
-        sum += strength * classic_surroundings(f, f0, wide_roughness, a, satin.secondary_color);
-        if (TWO_WAY) { sum += strength * classic_surroundings(f, f0, wide_roughness, -a, satin.secondary_color); }
+        sum += strength * classic_environment(f, f0, wide_roughness, a, satin.secondary_color);
+        if (TWO_WAY) { sum += strength * classic_environment(f, f0, wide_roughness, -a, satin.secondary_color); }
     }
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);

@@ -18,7 +18,7 @@ layout(set = 0, binding = 14) uniform sampler shadow_sampler;
 // Where light is looked up.
 struct ShadowReceiver {
     vec3 normal_in_world;      // unit; of the surface as it stands, which maps have not bent
-    float depth_m;             // below the outer end of its own coat, which darkens it by itself
+    float depth_m;             // below the outer end of its own fur, which darkens it by itself
 };
 
 // Every lit shader says it of its fragment.
@@ -78,7 +78,7 @@ vec3 shadow_transmittance(LightSource light, vec3 to_light, vec3 position_in_wor
     float cosine = dot(receiver.normal_in_world, to_light);
     // What shines through is lit on its other side.
     vec3 normal = cosine < 0.0 ? -receiver.normal_in_world : receiver.normal_in_world;
-    // A coat is looked up where the light comes into it.
+    // Fur is looked up where the light comes into it.
     vec3 place = position_in_world + to_light * (receiver.depth_m / max(abs(cosine), 0.25));
     for (uint index = 0u; index < light.shadow_count; ++index) {
         ShadowSource map = shadows[light.first_shadow + index];

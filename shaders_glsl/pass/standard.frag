@@ -4,7 +4,7 @@
 #include "surface.glsl"
 #include "standard.glsl"
 #ifndef UNLIT
-#include "standard_surroundings.glsl"
+#include "standard_environment.glsl"
 #endif
 
 void main() {
@@ -21,7 +21,7 @@ void main() {
 #else
     SurfaceFragment f = surface_fragment(color);
     StandardSurface surface = standard_surface(f.base_color, f.metallic, f.roughness, f.eye_in_tangent.z);
-    vec3 sum = standard_surroundings(f, surface);
+    vec3 sum = standard_environment(f, surface);
     for (uint index = 0u; index < light_count(); ++index) {
         LightSample light = light_at(index, position_in_world);
         vec3 light_in_tangent = light.direction_in_world * f.world_from_tangent;

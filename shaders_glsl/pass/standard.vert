@@ -45,7 +45,7 @@ void main() {
     gl_Position = frame.clip_from_world * world;
     gl_PointSize = 1.0;
 #ifdef MOTION
-    motion_write(gl_Position, (previous_objects[draw.object_index].world_from_object * vec4(previous_position, 1.0)).xyz);
+    motion_write(gl_Position, (previous_objects[draw.previous_object_index].world_from_object * vec4(previous_position, 1.0)).xyz);
 #endif
 #ifndef UNLIT
     // Unit length before interpolation, as MikkTSpace wants it: an object's scale must not tilt mapped normals.

@@ -15,7 +15,7 @@
 #include "count.glsl"
 #endif
 #ifdef LIST
-#include "transparency_append.glsl"
+#include "oit_append.glsl"
 #endif
 
 layout(constant_id = 0) const uint ALPHA_MODE = 0; // 0 opaque, 1 mask, 2 blend
@@ -166,7 +166,7 @@ void surface_output(vec3 premultiplied, vec3 transmittance) {
     listed_transmittance = transmittance;
 #else
     float opacity = 1.0 - (transmittance.r + transmittance.g + transmittance.b) * (1.0 / 3.0);
-    radiance = vec4(min(premultiplied, vec3(RADIANCE_LIMIT)), opacity);
+    radiance = vec4(min(premultiplied * frame.pre_exposure, vec3(RADIANCE_LIMIT)), opacity);
 #endif
 }
 #endif
@@ -240,7 +240,7 @@ SurfaceFragment surface_fragment(vec4 color) {
     return f;
 }
 
-// `reflected` is what the lights and the surroundings give.
+// `reflected` is what the lights and the environment give.
 void surface_write(SurfaceFragment f, vec3 reflected, float opacity) {
     surface_output(min(reflected + f.emissive, vec3(RADIANCE_LIMIT)) * opacity, vec3(1.0 - opacity));
 }

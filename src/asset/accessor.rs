@@ -3,56 +3,27 @@
 
 use super::AssetError;
 use super::context::Context;
-use super::document::{Accessor, Document};
+use super::document::Document;
 use super::uri;
+use ::gltf::json::Accessor;
+use ::gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type, VALID_ACCESSOR_TYPES};
+use ::gltf::json::buffer::Stride;
+use ::gltf::json::validation::{Checked, USize64};
 use std::borrow::Cow;
 
-/// Component types by their codes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Component {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
-}
-
-impl Component {
-    fn from_code(code: u64) -> Option<Self> {
-        Some(match code {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            _ => return None,
-        })
-    }
-
-    fn bytes(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-
-    /// `bytes` little-endian, of [`Self::bytes`] length.
-    fn to_f32(self, bytes: [u8; 4], normalized: bool) -> f32 {
-        let [a, b, ..] = bytes;
-        // Section 3.11: signed values are symmetric, so the lowest one clamps to -1.
-        let scale = |value: f32, max: f32| if normalized { (value / max).max(-1.0) } else { value };
-        match self {
-            Self::I8 => scale(f32::from(a as i8), 127.0),
-            Self::U8 => scale(f32::from(a), 255.0),
-            Self::I16 => scale(f32::from(i16::from_le_bytes([a, b])), 32_767.0),
-            Self::U16 => scale(f32::from(u16::from_le_bytes([a, b])), 65_535.0),
-            Self::U32 if normalized => (f64::from(u32::from_le_bytes(bytes)) / f64::from(u32::MAX)) as f32,
-            Self::U32 => u32::from_le_bytes(bytes) as f32,
-            Self::F32 => f32::from_le_bytes(bytes),
-        }
+/// `bytes` little-endian, of the component's size.
+fn to_f32(component: ComponentType, bytes: [u8; 4], normalized: bool) -> f32 {
+    let [a, b, ..] = bytes;
+    // Section 3.11: signed values are symmetric, so the lowest one clamps to -1.
+    let scale = |value: f32, max: f32| if normalized { (value / max).max(-1.0) } else { value };
+    match component {
+        ComponentType::I8 => scale(f32::from(a as i8), 127.0),
+        ComponentType::U8 => scale(f32::from(a), 255.0),
+        ComponentType::I16 => scale(f32::from(i16::from_le_bytes([a, b])), 32_767.0),
+        ComponentType::U16 => scale(f32::from(u16::from_le_bytes([a, b])), 65_535.0),
+        ComponentType::U32 if normalized => (f64::from(u32::from_le_bytes(bytes)) / f64::from(u32::MAX)) as f32,
+        ComponentType::U32 => u32::from_le_bytes(bytes) as f32,
+        ComponentType::F32 => f32::from_le_bytes(bytes),
     }
 }
 
@@ -65,8 +36,8 @@ pub(super) enum Normalize {
     Always,
 }
 
-/// The accessor type whose elements have `components` components, among those vair reads.
-fn shape_name(components: usize) -> &'static str {
+/// How a file spells the type of elements of `components` components, among those vair reads.
+fn type_name(components: usize) -> &'static str {
     match components {
         1 => "SCALAR",
         2 => "VEC2",
@@ -80,14 +51,14 @@ fn shape_name(components: usize) -> &'static str {
 struct Strided<'a, const N: usize> {
     bytes: &'a [u8],
     stride: usize,
-    component: Component,
+    component: ComponentType,
 }
 
 impl<const N: usize> Strided<'_, N> {
     /// Little-endian bytes of each component of element `i`, zero-extended to 4. `i` is below the
     /// count that this was made for.
     fn element(&self, i: usize) -> [[u8; 4]; N] {
-        let size = self.component.bytes();
+        let size = self.component.size();
         let start = i * self.stride;
         std::array::from_fn(|c| {
             let mut bytes = [0; 4];
@@ -113,17 +84,17 @@ impl<'a> Accessors<'a> {
         document: &'a Document,
         binary: Option<&'a [u8]>,
     ) -> Result<Self, AssetError> {
-        let mut buffers = Vec::with_capacity(document.buffers.len());
-        for (i, buffer) in document.buffers.iter().enumerate() {
+        let mut buffers = Vec::with_capacity(document.root.buffers.len());
+        for (i, buffer) in document.root.buffers.iter().enumerate() {
             let data = match (&buffer.uri, i, binary) {
                 (Some(uri), ..) => Some(Cow::Owned(uri::read(context, &format!("buffers[{i}].uri"), uri)?)),
                 (None, 0, Some(binary)) => Some(Cow::Borrowed(binary)),
                 _ => None,
             };
             if let Some(data) = &data
-                && (data.len() as u64) < buffer.byte_length
+                && (data.len() as u64) < buffer.byte_length.0
             {
-                let (has, says) = (data.len(), buffer.byte_length);
+                let (has, says) = (data.len(), buffer.byte_length.0);
                 let problem = format_args!("is {says}, but the buffer has {has} bytes; it is truncated").to_string();
                 return Err(context.error(format_args!("buffers[{i}].byteLength"), problem));
             }
@@ -135,22 +106,28 @@ impl<'a> Accessors<'a> {
     /// The bytes of a buffer view, checked.
     pub(super) fn view(&self, field: &str, view: usize) -> Result<&[u8], AssetError> {
         let context = self.context;
-        context.index(format_args!("{field}.bufferView"), view, "bufferViews", self.document.buffer_views.len())?;
-        let json = &self.document.buffer_views[view];
+        context.index(
+            format_args!("{field}.bufferView"),
+            view,
+            "bufferViews",
+            self.document.root.buffer_views.len(),
+        )?;
+        let json = &self.document.root.buffer_views[view];
         let here = format!("bufferViews[{view}]");
-        context.index(format_args!("{here}.buffer"), json.buffer, "buffers", self.document.buffers.len())?;
-        let length = self.document.buffers[json.buffer].byte_length;
-        let end = json.byte_offset.checked_add(json.byte_length).filter(|end| *end <= length);
+        let (buffers, buffer) = (&self.document.root.buffers, json.buffer.value());
+        context.index(format_args!("{here}.buffer"), buffer, "buffers", buffers.len())?;
+        let (start, USize64(count), USize64(length)) =
+            (offset(json.byte_offset), json.byte_length, buffers[buffer].byte_length);
+        let end = start.checked_add(count).filter(|end| *end <= length);
         let Some(end) = end else {
-            let (start, count, buffer) = (json.byte_offset, json.byte_length, json.buffer);
             let problem = format!("{count} bytes from {start} run past the {length} bytes of buffers[{buffer}]");
             return Err(context.error(here, problem));
         };
-        let data = self.buffers[json.buffer].as_deref().ok_or_else(|| {
-            context.error(format_args!("buffers[{}]", json.buffer), "has no uri and no GLB chunk; export it again")
+        let data = self.buffers[buffer].as_deref().ok_or_else(|| {
+            context.error(format_args!("buffers[{buffer}]"), "has no uri and no GLB chunk; export it again")
         })?;
         // The buffer holds at least byteLength bytes, see new().
-        Ok(&data[json.byte_offset as usize..end as usize])
+        Ok(&data[start as usize..end as usize])
     }
 
     fn strided<const N: usize>(
@@ -158,15 +135,15 @@ impl<'a> Accessors<'a> {
         field: &str,
         view: usize,
         offset: u64,
-        component: Component,
+        component: ComponentType,
         count: usize,
     ) -> Result<Strided<'_, N>, AssetError> {
         let bytes = self.view(field, view)?;
-        let size = N * component.bytes();
-        let stride = match self.document.buffer_views[view].byte_stride {
+        let size = N * component.size();
+        let stride = match self.document.root.buffer_views[view].byte_stride {
             None => size as u64,
-            Some(stride) if stride >= size as u64 => stride,
-            Some(stride) => {
+            Some(Stride(stride)) if stride >= size => stride as u64,
+            Some(Stride(stride)) => {
                 let problem = format!("{stride} is less than one element of {size} bytes of {field}");
                 return Err(self.context.error(format_args!("bufferViews[{view}].byteStride"), problem));
             }
@@ -190,49 +167,49 @@ impl<'a> Accessors<'a> {
         &self,
         field: &str,
         index: usize,
-        convert: impl Fn(&Accessor, Component, [u8; 4]) -> T,
+        convert: impl Fn(&Accessor, ComponentType, [u8; 4]) -> T,
     ) -> Result<Vec<[T; N]>, AssetError> {
         let context = self.context;
-        context.index(field, index, "accessors", self.document.accessors.len())?;
-        let accessor = &self.document.accessors[index];
+        context.index(field, index, "accessors", self.document.root.accessors.len())?;
+        let accessor = &self.document.root.accessors[index];
         let here = format!("{field} (accessors[{index}])");
-        let component = Component::from_code(accessor.component_type).ok_or_else(|| {
-            context.error(&here, format_args!("componentType {} does not exist", accessor.component_type))
-        })?;
-        if accessor.shape != shape_name(N) {
-            let problem = format!("type is {}, must be {}", accessor.shape, shape_name(N));
-            return Err(context.error(&here, problem));
+        let code = self.document.code(&format!("accessors[{index}].componentType"), &accessor.component_type);
+        let GenericComponentType(component) =
+            code.map_err(|code| context.error(&here, format_args!("componentType {code} does not exist")))?;
+        let found = self.type_name(index);
+        if found != type_name(N) {
+            return Err(context.error(&here, format_args!("type is {found}, must be {}", type_name(N))));
         }
         // Matrices of 1- and 2-byte components pad their columns to 4 bytes; a 4 x 4 one needs none.
-        let bytes = accessor.count.saturating_mul((N * size_of::<T>()) as u64);
+        let bytes = accessor.count.0.saturating_mul((N * size_of::<T>()) as u64);
         context.spend(&here, bytes)?;
-        let count = usize::try_from(accessor.count).map_err(|_| context.error(&here, "count is too large"))?;
+        let count = usize::try_from(accessor.count.0).map_err(|_| context.error(&here, "count is too large"))?;
         let mut values = vec![[T::default(); N]; count];
         let read = |bytes: [[u8; 4]; N]| bytes.map(|bytes| convert(accessor, component, bytes));
         if let Some(view) = accessor.buffer_view
             && count > 0
         {
-            let base = self.strided::<N>(&here, view, accessor.byte_offset, component, count)?;
+            let base = self.strided::<N>(&here, view.value(), offset(accessor.byte_offset), component, count)?;
             for (i, value) in values.iter_mut().enumerate() {
                 *value = read(base.element(i));
             }
         }
         if let Some(sparse) = &accessor.sparse {
-            let changed = usize::try_from(sparse.count).unwrap_or(usize::MAX);
+            let changed = usize::try_from(sparse.count.0).unwrap_or(usize::MAX);
             if changed > count {
                 let problem = format!("{changed} is more than the {count} elements of the accessor");
                 return Err(context.error(format_args!("{here}.sparse.count"), problem));
             }
             let place = format!("{here}.sparse.indices");
-            let kind = match Component::from_code(sparse.indices.component_type) {
-                Some(kind @ (Component::U8 | Component::U16 | Component::U32)) => kind,
-                _ => return Err(context.error(place, "componentType must be 5121, 5123 or 5125 (unsigned)")),
+            let Checked::Valid(IndexComponentType(kind)) = sparse.indices.component_type else {
+                return Err(context.error(place, "componentType must be 5121, 5123 or 5125 (unsigned)"));
             };
             if changed > 0 {
                 let (i, v) = (&sparse.indices, &sparse.values);
-                let indices = self.strided::<1>(&place, i.buffer_view, i.byte_offset, kind, changed)?;
+                let indices = self.strided::<1>(&place, i.buffer_view.value(), i.byte_offset.0, kind, changed)?;
                 let place_of_values = format!("{here}.sparse.values");
-                let replaced = self.strided::<N>(&place_of_values, v.buffer_view, v.byte_offset, component, changed)?;
+                let replaced =
+                    self.strided::<N>(&place_of_values, v.buffer_view.value(), v.byte_offset.0, component, changed)?;
                 for k in 0..changed {
                     let [at] = indices.element(k).map(u32::from_le_bytes);
                     let at = context.index(&place, at as usize, "the accessor", count)?;
@@ -251,7 +228,7 @@ impl<'a> Accessors<'a> {
         normalize: Normalize,
     ) -> Result<Vec<[f32; N]>, AssetError> {
         let values = self.decode::<f32, N>(field, index, |accessor, component, bytes| {
-            component.to_f32(bytes, accessor.normalized || normalize == Normalize::Always)
+            to_f32(component, bytes, accessor.normalized || normalize == Normalize::Always)
         })?;
         for (i, value) in values.iter().enumerate() {
             if let Some(bad) = value.iter().find(|number| !number.is_finite()) {
@@ -264,19 +241,34 @@ impl<'a> Accessors<'a> {
 
     /// Unsigned integers.
     pub(super) fn unsigned<const N: usize>(&self, field: &str, index: usize) -> Result<Vec<[u32; N]>, AssetError> {
-        let kind = self.document.accessors.get(index).and_then(|a| Component::from_code(a.component_type));
-        if let Some(Component::I8 | Component::I16 | Component::F32) = kind {
+        let code = self.document.root.accessors.get(index).map(|accessor| accessor.component_type);
+        if let Some(Checked::Valid(GenericComponentType(ComponentType::I8 | ComponentType::I16 | ComponentType::F32))) =
+            code
+        {
             let problem = "componentType must be 5121, 5123 or 5125 (unsigned)";
             return Err(self.context.error(format_args!("{field} (accessors[{index}])"), problem));
         }
         self.decode::<u32, N>(field, index, |_, _, bytes| u32::from_le_bytes(bytes))
     }
 
-    /// The `type` of an accessor, as text.
-    pub(super) fn shape(&self, field: &str, index: usize) -> Result<&str, AssetError> {
-        self.context.index(field, index, "accessors", self.document.accessors.len())?;
-        Ok(&self.document.accessors[index].shape)
+    /// The `type` of an accessor.
+    pub(super) fn shape(&self, field: &str, index: usize) -> Result<Checked<Type>, AssetError> {
+        self.context.index(field, index, "accessors", self.document.root.accessors.len())?;
+        Ok(self.document.root.accessors[index].type_)
     }
+
+    /// The `type` of an accessor as the file spells it.
+    fn type_name(&self, index: usize) -> &str {
+        match self.document.code(&format!("accessors[{index}].type"), &self.document.root.accessors[index].type_) {
+            Ok(known) => VALID_ACCESSOR_TYPES[known as usize - Type::Scalar as usize],
+            Err(unknown) => unknown,
+        }
+    }
+}
+
+/// An absent offset is 0.
+fn offset(bytes: Option<USize64>) -> u64 {
+    bytes.map_or(0, |USize64(bytes)| bytes)
 }
 
 #[cfg(test)]
@@ -285,14 +277,14 @@ mod tests {
 
     #[test]
     fn integers_normalise_as_section_3_11_says() {
-        let f = |component: Component, bytes: [u8; 4]| component.to_f32(bytes, true);
-        assert_eq!(f(Component::I8, [0x80, 0, 0, 0]), -1.0);
-        assert_eq!(f(Component::I8, [127, 0, 0, 0]), 1.0);
-        assert_eq!(f(Component::U8, [51, 0, 0, 0]), 0.2);
-        assert_eq!(f(Component::I16, [0x00, 0x80, 0, 0]), -1.0);
-        assert_eq!(f(Component::U16, [0xff, 0xff, 0, 0]), 1.0);
-        assert_eq!(f(Component::U32, [0xff; 4]), 1.0);
-        assert_eq!(Component::I8.to_f32([0x80, 0, 0, 0], false), -128.0);
-        assert_eq!(Component::U32.to_f32([1, 0, 0, 0], false), 1.0);
+        let f = |component, bytes: [u8; 4]| to_f32(component, bytes, true);
+        assert_eq!(f(ComponentType::I8, [0x80, 0, 0, 0]), -1.0);
+        assert_eq!(f(ComponentType::I8, [127, 0, 0, 0]), 1.0);
+        assert_eq!(f(ComponentType::U8, [51, 0, 0, 0]), 0.2);
+        assert_eq!(f(ComponentType::I16, [0x00, 0x80, 0, 0]), -1.0);
+        assert_eq!(f(ComponentType::U16, [0xff, 0xff, 0, 0]), 1.0);
+        assert_eq!(f(ComponentType::U32, [0xff; 4]), 1.0);
+        assert_eq!(to_f32(ComponentType::I8, [0x80, 0, 0, 0], false), -128.0);
+        assert_eq!(to_f32(ComponentType::U32, [1, 0, 0, 0], false), 1.0);
     }
 }

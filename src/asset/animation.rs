@@ -2,8 +2,10 @@
 
 use super::accessor::{Accessors, Normalize};
 use super::context::Context;
-use super::document::{self, Document};
+use super::document::{Document, present};
 use super::{Animation, AssetError, Channel, Interpolation, Keys, mesh, node};
+use ::gltf::json;
+use ::gltf::json::animation::{self, Property};
 use glam::{Quat, Vec3};
 use std::collections::HashSet;
 
@@ -19,17 +21,20 @@ pub(super) fn read(
     document: &Document,
     accessors: &Accessors,
 ) -> Result<Vec<Animation>, AssetError> {
-    let mut animations = Vec::with_capacity(document.animations.len());
-    for (a, json) in document.animations.iter().enumerate() {
+    let mut animations = Vec::with_capacity(document.root.animations.len());
+    for (a, json) in document.root.animations.iter().enumerate() {
         let mut channels: Vec<Channel> = Vec::with_capacity(json.channels.len());
         let mut driven = HashSet::new();
         for (c, channel) in json.channels.iter().enumerate() {
             let field = format!("animations[{a}].channels[{c}]");
             let reader = Reader { context, document, accessors, animation: json, index: a };
-            if !driven.insert((channel.target.node, channel.target.path.as_str())) {
+            let path = document.code(&format!("{field}.target.path"), &channel.target.path);
+            // Unknown paths differ by their names.
+            let key = (channel.target.node.value(), path.map(|path| path as u8));
+            if !driven.insert(key) {
                 context.warn(field, "drives what an earlier channel drives; it is ignored");
             } else {
-                channels.extend(reader.channel(&field, channel)?);
+                channels.extend(reader.channel(&field, channel, path)?);
             }
         }
         let last = |channel: &Channel| channel.times_s.last().copied().unwrap_or(0.0);
@@ -43,58 +48,67 @@ struct Reader<'a> {
     context: &'a Context,
     document: &'a Document,
     accessors: &'a Accessors<'a>,
-    animation: &'a document::Animation,
+    animation: &'a json::Animation,
     index: usize,
 }
 
 impl Reader<'_> {
-    fn channel(&self, field: &str, json: &document::Channel) -> Result<Option<Channel>, AssetError> {
+    fn channel(
+        &self,
+        field: &str,
+        json: &json::animation::Channel,
+        path: Result<Property, &str>,
+    ) -> Result<Option<Channel>, AssetError> {
         let context = self.context;
-        let samplers = &self.animation.samplers;
-        context.index(format_args!("{field}.sampler"), json.sampler, "samplers", samplers.len())?;
-        let sampler = &samplers[json.sampler];
-        let place = format!("animations[{}].samplers[{}]", self.index, json.sampler);
+        let (samplers, index) = (&self.animation.samplers, json.sampler.value());
+        context.index(format_args!("{field}.sampler"), index, "samplers", samplers.len())?;
+        let sampler = &samplers[index];
+        let place = format!("animations[{}].samplers[{index}]", self.index);
         let ignore = |why: &str| {
             context.warn(field, format_args!("{why}; the channel is ignored"));
             Ok(None)
         };
 
-        let Some(target) = json.target.node else { return ignore("targets no node") };
-        context.index(format_args!("{field}.target.node"), target, "nodes", self.document.nodes.len())?;
-        let interpolation = match sampler.interpolation.as_deref() {
-            None | Some("LINEAR") => Interpolation::Linear,
-            Some("STEP") => Interpolation::Step,
-            Some("CUBICSPLINE") => Interpolation::CubicSpline,
-            Some(name) => {
+        let Some(target) = present(json.target.node) else { return ignore("targets no node") };
+        let nodes = &self.document.root.nodes;
+        context.index(format_args!("{field}.target.node"), target, "nodes", nodes.len())?;
+        let here = format!("{place}.interpolation");
+        let interpolation = match self.document.code(&here, &sampler.interpolation) {
+            Ok(animation::Interpolation::Linear) => Interpolation::Linear,
+            Ok(animation::Interpolation::Step) => Interpolation::Step,
+            Ok(animation::Interpolation::CubicSpline) => Interpolation::CubicSpline,
+            Err(name) => {
                 let problem = format!("`{name}` does not exist; use LINEAR, STEP or CUBICSPLINE");
-                return Err(context.error(format_args!("{place}.interpolation"), problem));
+                return Err(context.error(here, problem));
             }
         };
-        let path = json.target.path.as_str();
-        if path != "weights" && self.document.nodes[target].matrix.is_some() {
+        if path != Ok(Property::MorphTargetWeights) && nodes[target].matrix.is_some() {
             return ignore("targets a node that has a matrix, which only a rest pose may");
         }
 
         let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-        let input = self.accessors.floats::<1>(&format!("{place}.input"), sampler.input, Normalize::AsFlagged)?;
+        let (input, values) = (sampler.input.value(), sampler.output.value());
+        let input = self.accessors.floats::<1>(&format!("{place}.input"), input, Normalize::AsFlagged)?;
         let output = format!("{place}.output");
         // The file's keys, then those that stay: times must increase strictly.
         let kept = self.increasing(&format!("{place}.input"), &input);
         let values = match path {
-            "translation" => Keys::Translation(self.vectors(&output, sampler.output, input.len(), per_key, &kept)?),
-            "scale" => Keys::Scale(self.vectors(&output, sampler.output, input.len(), per_key, &kept)?),
-            "rotation" => Keys::Rotation(self.rotations(&output, sampler.output, input.len(), per_key, &kept)?),
-            "weights" => {
-                let mesh = self.document.nodes[target].mesh.and_then(|mesh| self.document.meshes.get(mesh));
+            Ok(Property::Translation) => {
+                Keys::Translation(self.vectors(&output, values, input.len(), per_key, &kept)?)
+            }
+            Ok(Property::Scale) => Keys::Scale(self.vectors(&output, values, input.len(), per_key, &kept)?),
+            Ok(Property::Rotation) => Keys::Rotation(self.rotations(&output, values, input.len(), per_key, &kept)?),
+            Ok(Property::MorphTargetWeights) => {
+                let mesh = nodes[target].mesh.and_then(|mesh| self.document.root.meshes.get(mesh.value()));
                 let targets = mesh.map_or(0, mesh::target_count);
                 if targets == 0 {
                     return ignore("targets weights of a node without morph targets");
                 }
-                let values = self.accessors.floats::<1>(&output, sampler.output, Normalize::AsFlagged)?;
+                let values = self.accessors.floats::<1>(&output, values, Normalize::AsFlagged)?;
                 let values = self.keep(&output, &values, input.len(), per_key * targets, &kept)?;
                 Keys::Weights { targets, values: values.into_iter().flatten().collect() }
             }
-            _ => return ignore(&format!("targets `{path}`, which is not known")),
+            Err(path) => return ignore(&format!("targets `{path}`, which is not known")),
         };
         if kept.is_empty() {
             return ignore("has no keys");

@@ -1,5 +1,6 @@
 //! What every step of one load shares: the file's name, its budget, its warnings.
 
+use super::mend::LARGEST_INDEX;
 use super::{AssetError, LoadOptions};
 use std::cell::{Cell, RefCell};
 use std::fmt::Display;
@@ -123,10 +124,11 @@ impl Context {
     /// Checks a reference into the list `list` of `len` entries.
     pub(super) fn index(&self, field: impl Display, index: usize, list: &str, len: usize) -> Result<usize, AssetError> {
         if index < len {
-            Ok(index)
-        } else {
-            Err(self.error(field, format_args!("index {index} is out of range: {list} has {len} entries")))
+            return Ok(index);
         }
+        // Larger ones were cut to this one.
+        let more = if index == LARGEST_INDEX as usize { " or more" } else { "" };
+        Err(self.error(field, format_args!("index {index}{more} is out of range: {list} has {len} entries")))
     }
 
     /// Checks a number that JSON spelled but 32 bits cannot hold.

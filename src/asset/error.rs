@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-/// Why a file could not be loaded.
+/// Why a file could not be loaded, or why data made in memory is not to be relied on.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum AssetError {
     /// A file could not be read.
     #[error("{path}: cannot be read ({source}); check the path and its permissions", path = path.display())]

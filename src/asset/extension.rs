@@ -5,7 +5,7 @@ use super::context::Context;
 use super::document::Document;
 
 /// Read and honoured.
-const READ: [&str; 16] = [
+pub(super) const READ: [&str; 16] = [
     "KHR_texture_transform",
     "KHR_mesh_quantization",
     "KHR_lights_punctual",
@@ -29,12 +29,12 @@ const READ: [&str; 16] = [
 /// # Errors
 /// A required extension that is not read.
 pub(super) fn check(context: &Context, document: &Document) -> Result<(), AssetError> {
-    for (i, name) in document.extensions_required.iter().enumerate() {
+    for (i, name) in document.root.extensions_required.iter().enumerate() {
         if !READ.contains(&name.as_str()) {
             return Err(context.unsupported(format_args!("extensionsRequired[{i}]"), format_args!("`{name}`")));
         }
     }
-    for name in document.extensions_used.iter().chain(&document.extensions_required) {
+    for name in document.root.extensions_used.iter().chain(&document.root.extensions_required) {
         if !READ.contains(&name.as_str()) {
             context.warn("extensionsUsed", format_args!("`{name}` is not known and is ignored"));
         }

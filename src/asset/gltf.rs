@@ -2,11 +2,12 @@
 
 use super::accessor::Accessors;
 use super::context::Context;
-use super::document::{self, Document, Version};
+use super::document::{self, Document};
 use super::mesh::Meshes;
 use super::{
     Asset, AssetError, Material, animation, camera, container, extension, light, material, node, skin, texture, uri,
 };
+use ::gltf::json;
 use std::path::Path;
 
 /// Default of [`LoadOptions::memory_limit_bytes`]: 4 GiB.
@@ -53,11 +54,11 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Asset, AssetError> {
 
 /// What an object costs at most, as the document has it (a growing list holds up to two of each) and as the asset does:
 /// that of a material, the largest.
-const OBJECT_BYTES: u64 = 2 * size_of::<document::Material>() as u64 + size_of::<Material>() as u64;
+const OBJECT_BYTES: u64 = 2 * size_of::<json::Material>() as u64 + size_of::<Material>() as u64;
 
-/// What any other value costs at most, wherever it ends up: a joint with its matrix, a key and value of `extras`, which
-/// are kept twice.
-const VALUE_BYTES: u64 = 128;
+/// What any other value costs at most, wherever it ends up: a joint with its matrix, or an entry of a growing object,
+/// which holds up to two of each, their hashes and places.
+const VALUE_BYTES: u64 = 2 * (size_of::<(String, serde_json::Value)>() as u64 + 16);
 
 /// Bytes that a JSON text may become, counted before it becomes them: a few characters make a whole material.
 fn json_bytes(json: &[u8]) -> u64 {
@@ -79,16 +80,9 @@ fn json_bytes(json: &[u8]) -> u64 {
 
 fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
     let container = container::split(context, bytes)?;
-    let broken = |source: serde_json::Error| context.error("JSON", format_args!("{source}; repair or export it again"));
-    let version: Version = serde_json::from_slice(container.json).map_err(broken)?;
-    for text in std::iter::once(&version.asset.version).chain(&version.asset.min_version) {
-        if text.split('.').next() != Some("2") {
-            return Err(context.error("asset.version", format_args!("{text} is not read; convert the file to 2.0")));
-        }
-    }
+    document::check_version(context, container.json)?;
     context.spend("JSON", json_bytes(container.json))?;
-    let mut document: Document = serde_json::from_slice(container.json).map_err(broken)?;
-    document.shorten_names(context);
+    let document = Document::parse(context, container.json)?;
     extension::check(context, &document)?;
 
     let nodes = node::read(context, &document)?;
@@ -100,7 +94,7 @@ fn parse(context: &Context, bytes: &[u8]) -> Result<Asset, AssetError> {
     let meshes = Meshes { context, document: &document, accessors: &accessors, materials: &materials }.read()?;
     let animations = animation::read(context, &document, &accessors)?;
     let images = texture::read_images(context, &document, &accessors, &materials, &textures)?;
-    let variants = document.extensions.variants.variants.iter().map(|variant| variant.name.clone()).collect();
+    let variants = document.variants().iter().map(|variant| variant.name.clone()).collect();
     Ok(Asset {
         scenes,
         default_scene,
@@ -128,11 +122,11 @@ mod tests {
     fn no_object_costs_more_than_is_charged() {
         let cost = |in_document: usize, in_asset: usize| (2 * in_document + in_asset) as u64;
         for bytes in [
-            cost(size_of::<document::Node>(), size_of::<Node>()),
-            cost(size_of::<document::Primitive>(), size_of::<Primitive>()),
-            cost(size_of::<document::Channel>(), size_of::<Channel>()),
-            cost(size_of::<document::Camera>(), size_of::<Camera>()),
-            cost(size_of::<document::Accessor>(), 0),
+            cost(size_of::<json::Node>(), size_of::<Node>()),
+            cost(size_of::<json::mesh::Primitive>(), size_of::<Primitive>()),
+            cost(size_of::<json::animation::Channel>(), size_of::<Channel>()),
+            cost(size_of::<json::Camera>(), size_of::<Camera>()),
+            cost(size_of::<json::Accessor>(), 0),
         ] {
             assert!(bytes <= OBJECT_BYTES, "{bytes} over {OBJECT_BYTES}");
         }

@@ -3,7 +3,9 @@
 use super::AssetError;
 use super::accessor::{Accessors, Normalize};
 use super::context::Context;
-use std::collections::BTreeMap;
+use ::gltf::json::Index;
+use ::gltf::json::mesh::{Primitive, Semantic};
+use ::gltf::json::validation::Checked;
 
 /// Influences a set holds.
 const PER_SET: usize = 4;
@@ -18,15 +20,16 @@ const PER_SET: usize = 4;
 pub(super) fn read(
     context: &Context,
     accessors: &Accessors,
-    attributes: &BTreeMap<String, usize>,
+    json: &Primitive,
     field: &str,
     vertex_count: usize,
     joint_count: usize,
 ) -> Result<(Vec<(u16, f32)>, usize), AssetError> {
+    let attribute = |semantic: Semantic| json.attributes.get(&Checked::Valid(semantic)).map(Index::value);
     let mut sets = Vec::new();
-    while let Some(&joints) = attributes.get(&format!("JOINTS_{}", sets.len())) {
-        let set = sets.len();
-        let Some(&weights) = attributes.get(&format!("WEIGHTS_{set}")) else {
+    for set in 0.. {
+        let Some(joints) = attribute(Semantic::Joints(set)) else { break };
+        let Some(weights) = attribute(Semantic::Weights(set)) else {
             context.warn(field, format_args!("JOINTS_{set} has no WEIGHTS_{set}; it is ignored"));
             break;
         };

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::document::Document;
 use super::{AssetError, Light, LightKind};
+use ::gltf::json::extensions::scene::khr_lights_punctual as json;
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -11,12 +12,11 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 /// # Errors
 /// A type that the extension does not have; numbers that are not finite.
 pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Light>, AssetError> {
-    let light = |(i, json): (usize, &super::document::Light)| {
+    let light = |(i, json): (usize, &json::Light)| {
         let field = format!("extensions.KHR_lights_punctual.lights[{i}]");
-        let color = Vec3::from(json.color.unwrap_or([1.0; 3]));
-        let intensity = json.intensity.unwrap_or(1.0);
-        let inner = json.spot.inner_cone_angle.unwrap_or(0.0);
-        let outer = json.spot.outer_cone_angle.unwrap_or(FRAC_PI_4);
+        let (color, intensity) = (Vec3::from(json.color), json.intensity);
+        let (inner, outer) =
+            json.spot.as_ref().map_or((0.0, FRAC_PI_4), |spot| (spot.inner_cone_angle, spot.outer_cone_angle));
         context.finite(&field, &[color.x, color.y, color.z, intensity, json.range.unwrap_or(1.0), inner, outer])?;
         if color.min_element() < 0.0 || intensity < 0.0 {
             context.warn(&field, "has a negative colour or intensity; it counts as 0");
@@ -25,10 +25,12 @@ pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Light>,
         if range_m != json.range {
             context.warn(&field, "range must be > 0; it counts as infinite");
         }
-        let kind = match json.kind.as_str() {
-            "directional" => LightKind::Directional,
-            "point" => LightKind::Point { range_m },
-            "spot" => {
+        let place = format!("{field}.type");
+        let kind = document.code(&place, &json.type_);
+        let kind = match kind.map_err(|name| context.error(&place, format_args!("`{name}` does not exist")))? {
+            json::Type::Directional => LightKind::Directional,
+            json::Type::Point => LightKind::Point { range_m },
+            json::Type::Spot => {
                 let outer_angle = outer.clamp(f32::EPSILON, FRAC_PI_2);
                 // Equal angles would divide by zero in the falloff between them.
                 let inner_angle = inner.clamp(0.0, outer_angle * (1.0 - f32::EPSILON));
@@ -37,9 +39,8 @@ pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Light>,
                 }
                 LightKind::Spot { range_m, inner_angle, outer_angle }
             }
-            kind => return Err(context.error(format_args!("{field}.type"), format_args!("`{kind}` does not exist"))),
         };
         Ok(Light { name: json.name.clone(), color: color.max(Vec3::ZERO), intensity: intensity.max(0.0), kind })
     };
-    document.extensions.lights.lights.iter().enumerate().map(light).collect()
+    document.lights().iter().enumerate().map(light).collect()
 }

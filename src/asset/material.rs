@@ -1,9 +1,13 @@
 //! Materials, as the file says them.
 
 use super::context::Context;
-use super::document::{self, Document, TextureInfo};
-use super::{AlphaMode, AssetError, MAX_UV_SETS, Material, TextureRef, material_extension};
+use super::document::{Document, present};
+use super::{AlphaMode, AssetError, MAX_UV_SETS, Material, MaterialExtensions, TextureRef, material_extension};
+use ::gltf::json;
+use ::gltf::json::extensions::texture::TextureTransform;
+use ::gltf::json::texture::Info;
 use glam::{Vec2, Vec3, Vec4};
+use serde::Deserialize;
 use serde_json::{Map, Value};
 
 const UNIT: (f32, f32) = (0.0, 1.0);
@@ -14,11 +18,11 @@ const POSITIVE: (f32, f32) = (0.0, f32::MAX);
 /// # Errors
 /// Texture indices out of range; an alpha mode that does not exist; numbers that are not finite.
 pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Material>, AssetError> {
-    let mut materials = Vec::with_capacity(document.materials.len() + 1);
-    for (m, json) in document.materials.iter().enumerate() {
+    let mut materials = Vec::with_capacity(document.root.materials.len() + 1);
+    for (m, json) in document.root.materials.iter().enumerate() {
         materials.push(Reader { context, document, field: format!("materials[{m}]") }.material(json)?);
     }
-    let mut primitives = document.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut primitives = document.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     if primitives.any(|primitive| primitive.material.is_none()) {
         materials.push(Material::default());
     }
@@ -33,51 +37,52 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn material(&self, json: &document::Material) -> Result<Material, AssetError> {
+    fn material(&self, json: &json::Material) -> Result<Material, AssetError> {
         let pbr = &json.pbr_metallic_roughness;
-        let default = Material::default();
-        let scale = |info: &Option<TextureInfo>, pick: fn(&TextureInfo) -> Option<f32>| info.as_ref().and_then(pick);
-        let normal_scale = scale(&json.normal_texture, |info| info.scale).unwrap_or(1.0);
+        let normal_scale = json.normal_texture.as_ref().map_or(1.0, |info| info.scale);
         self.context.finite(format_args!("{}.normalTexture.scale", self.field), &[normal_scale])?;
-        let strength = match &json.extensions.emissive_strength {
-            Some(emissive) => {
-                self.within("emissiveStrength", [emissive.emissive_strength.unwrap_or(1.0)], POSITIVE)?[0]
-            }
+        let extensions = json.extensions.as_ref();
+        let strength = match extensions.and_then(|extensions| extensions.emissive_strength.as_ref()) {
+            Some(emissive) => self.within("emissiveStrength", [emissive.emissive_strength.0], POSITIVE)?[0],
             None => 1.0,
         };
-        let emissive = Vec3::from(self.within("emissiveFactor", json.emissive_factor.unwrap_or([0.0; 3]), POSITIVE)?);
+        let emissive = Vec3::from(self.within("emissiveFactor", json.emissive_factor.0, POSITIVE)?);
         let emissive = emissive * strength;
         self.context.finite(format_args!("{}.emissiveFactor", self.field), &emissive.to_array())?;
-        let cutoff = self.within("alphaCutoff", [json.alpha_cutoff.unwrap_or(0.5)], POSITIVE)?[0];
-        let alpha_mode = match json.alpha_mode.as_deref() {
-            None | Some("OPAQUE") => AlphaMode::Opaque,
-            Some("MASK") => AlphaMode::Mask(cutoff),
-            Some("BLEND") => AlphaMode::Blend,
-            Some(mode) => {
+        let cutoff = self.within("alphaCutoff", [json.alpha_cutoff.unwrap_or_default().0], POSITIVE)?[0];
+        let here = format!("{}.alphaMode", self.field);
+        let alpha_mode = match self.document.code(&here, &json.alpha_mode) {
+            Ok(json::material::AlphaMode::Opaque) => AlphaMode::Opaque,
+            Ok(json::material::AlphaMode::Mask) => AlphaMode::Mask(cutoff),
+            Ok(json::material::AlphaMode::Blend) => AlphaMode::Blend,
+            Err(mode) => {
                 let problem = format!("`{mode}` does not exist; use OPAQUE, MASK or BLEND");
-                return Err(self.context.error(format_args!("{}.alphaMode", self.field), problem));
+                return Err(self.context.error(here, problem));
             }
         };
-        let base_color = self.within("baseColorFactor", pbr.base_color_factor.unwrap_or([1.0; 4]), UNIT)?;
-        let occlusion = scale(&json.occlusion_texture, |info| info.strength).unwrap_or(1.0);
+        let occlusion = json.occlusion_texture.as_ref().map_or(1.0, |info| info.strength.0);
         Ok(Material {
             name: json.name.clone(),
-            base_color: Vec4::from(base_color),
-            base_color_texture: self.texture("pbrMetallicRoughness.baseColorTexture", &pbr.base_color_texture)?,
-            metallic: self.within("metallicFactor", [pbr.metallic_factor.unwrap_or(default.metallic)], UNIT)?[0],
-            roughness: self.within("roughnessFactor", [pbr.roughness_factor.unwrap_or(default.roughness)], UNIT)?[0],
+            base_color: Vec4::from(self.within("baseColorFactor", pbr.base_color_factor.0, UNIT)?),
+            base_color_texture: self
+                .texture("pbrMetallicRoughness.baseColorTexture", pbr.base_color_texture.as_ref())?,
+            metallic: self.within("metallicFactor", [pbr.metallic_factor.0], UNIT)?[0],
+            roughness: self.within("roughnessFactor", [pbr.roughness_factor.0], UNIT)?[0],
             metallic_roughness_texture: self
-                .texture("pbrMetallicRoughness.metallicRoughnessTexture", &pbr.metallic_roughness_texture)?,
-            normal_texture: self.texture("normalTexture", &json.normal_texture)?,
+                .texture("pbrMetallicRoughness.metallicRoughnessTexture", pbr.metallic_roughness_texture.as_ref())?,
+            normal_texture: self.normal_texture(json.normal_texture.as_ref())?,
             normal_scale,
-            occlusion_texture: self.texture("occlusionTexture", &json.occlusion_texture)?,
+            occlusion_texture: self.occlusion_texture(json.occlusion_texture.as_ref())?,
             occlusion_strength: self.within("occlusionTexture.strength", [occlusion], UNIT)?[0],
             emissive,
-            emissive_texture: self.texture("emissiveTexture", &json.emissive_texture)?,
+            emissive_texture: self.texture("emissiveTexture", json.emissive_texture.as_ref())?,
             alpha_mode,
             double_sided: json.double_sided,
-            unlit: json.extensions.unlit.is_some(),
-            extensions: material_extension::read(self, &json.extensions.further)?,
+            unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
+            extensions: match extensions {
+                Some(extensions) => material_extension::read(self, &extensions.others)?,
+                None => MaterialExtensions::default(),
+            },
             vair: self.vair(json),
         })
     }
@@ -109,41 +114,81 @@ impl Reader<'_> {
         self.context.warn(format_args!("{}.{name}", self.field), problem);
     }
 
+    fn normal_texture(&self, json: Option<&json::material::NormalTexture>) -> Result<Option<TextureRef>, AssetError> {
+        let Some(json) = json else { return Ok(None) };
+        let others = json.extensions.as_ref().map(|extensions| &extensions.others);
+        let transform = self.transform("normalTexture", others)?;
+        self.reference("normalTexture", json.index.value(), json.tex_coord, transform.as_ref())
+    }
+
+    fn occlusion_texture(
+        &self,
+        json: Option<&json::material::OcclusionTexture>,
+    ) -> Result<Option<TextureRef>, AssetError> {
+        let Some(json) = json else { return Ok(None) };
+        let others = json.extensions.as_ref().map(|extensions| &extensions.others);
+        let transform = self.transform("occlusionTexture", others)?;
+        self.reference("occlusionTexture", json.index.value(), json.tex_coord, transform.as_ref())
+    }
+
+    /// KHR_texture_transform, where the crate has no type for it.
+    fn transform(
+        &self,
+        name: &str,
+        others: Option<&Map<String, Value>>,
+    ) -> Result<Option<TextureTransform>, AssetError> {
+        let Some(value) = others.and_then(|others| others.get("KHR_texture_transform")) else { return Ok(None) };
+        let broken = |error| {
+            let name = format!("{name}.extensions.KHR_texture_transform");
+            self.error(&name, &format!("{error}; export it again"))
+        };
+        TextureTransform::deserialize(value).map(Some).map_err(broken)
+    }
+
     /// `None`, with a warning, for a texture without an image.
-    pub(super) fn texture(&self, name: &str, info: &Option<TextureInfo>) -> Result<Option<TextureRef>, AssetError> {
+    pub(super) fn texture(&self, name: &str, info: Option<&Info>) -> Result<Option<TextureRef>, AssetError> {
         let Some(info) = info else { return Ok(None) };
-        let context = self.context;
+        let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
+        self.reference(name, info.index.value(), info.tex_coord, transform)
+    }
+
+    fn reference(
+        &self,
+        name: &str,
+        texture: usize,
+        tex_coord: u32,
+        transform: Option<&TextureTransform>,
+    ) -> Result<Option<TextureRef>, AssetError> {
+        let (context, textures) = (self.context, &self.document.root.textures);
         let field = format!("{}.{name}", self.field);
-        context.index(format_args!("{field}.index"), info.index, "textures", self.document.textures.len())?;
-        if self.document.textures[info.index].source.is_none() {
-            let problem = format!("textures[{}] has no PNG or JPEG image; the factor alone is shown", info.index);
+        context.index(format_args!("{field}.index"), texture, "textures", textures.len())?;
+        if present(textures[texture].source).is_none() {
+            let problem = format!("textures[{texture}] has no PNG or JPEG image; the factor alone is shown");
             context.warn(field, problem);
             return Ok(None);
         }
-        let transform = info.extensions.transform.as_ref();
-        let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
-        let uv_set = match u32::try_from(set) {
-            Ok(set) if (set as usize) < MAX_UV_SETS => set,
-            _ => {
-                context.warn(&field, format_args!("uses TEXCOORD_{set}, which is not kept; TEXCOORD_0 is used"));
-                0
-            }
+        let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
+        let uv_set = if (set as usize) < MAX_UV_SETS {
+            set
+        } else {
+            context.warn(&field, format_args!("uses TEXCOORD_{set}, which is not kept; TEXCOORD_0 is used"));
+            0
         };
-        let offset = transform.and_then(|t| t.offset).unwrap_or([0.0; 2]);
-        let rotation = transform.and_then(|t| t.rotation).unwrap_or(0.0);
-        let scale = transform.and_then(|t| t.scale).unwrap_or([1.0; 2]);
+        let TextureTransform { offset, rotation, scale, .. } = transform.cloned().unwrap_or_default();
+        let (offset, rotation, scale) = (Vec2::from(offset.0), rotation.0, Vec2::from(scale.0));
         context.finite(
             format_args!("{field}.extensions.KHR_texture_transform"),
-            &[offset[0], offset[1], rotation, scale[0], scale[1]],
+            &[offset.x, offset.y, rotation, scale.x, scale.y],
         )?;
-        let (offset, scale) = (Vec2::from(offset), Vec2::from(scale));
-        Ok(Some(TextureRef { texture: info.index, uv_set, offset, rotation, scale }))
+        Ok(Some(TextureRef { texture, uv_set, offset, rotation, scale }))
     }
 
     /// `extras.vair` overlaid by `extensions.VAIR_material`.
-    fn vair(&self, json: &document::Material) -> Option<Map<String, Value>> {
-        let extras = json.extras.as_ref().and_then(|extras| extras.get("vair"));
-        let sources = [("extras.vair", extras), ("extensions.VAIR_material", json.extensions.vair.as_ref())];
+    fn vair(&self, json: &json::Material) -> Option<Map<String, Value>> {
+        let extras = json.extras.as_ref().and_then(|extras| serde_json::from_str::<Value>(extras.get()).ok());
+        let extras = extras.as_ref().and_then(|extras| extras.get("vair"));
+        let extension = json.extensions.as_ref().and_then(|extensions| extensions.others.get("VAIR_material"));
+        let sources = [("extras.vair", extras), ("extensions.VAIR_material", extension)];
         let mut merged: Option<Map<String, Value>> = None;
         for (name, source) in sources {
             match source {

@@ -3,12 +3,13 @@
 //! Source: Khronos, KHR_materials_{sheen, clearcoat, anisotropy, iridescence, specular, ior, transmission, volume,
 //! diffuse_transmission}. Textures are data where nothing else is said, and multiply the factor of their name.
 
-use super::document::TextureInfo;
 use super::material::Reader;
 use super::{AssetError, TextureRef};
+use ::gltf::json::material::NormalTexture;
+use ::gltf::json::texture::Info;
 use glam::Vec3;
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
-use std::collections::BTreeMap;
 
 /// What a material has beside the standard surface. Boxed, as most materials have none of it.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -178,7 +179,7 @@ const ANY: f32 = f32::MAX;
 ///
 /// # Errors
 /// Values of the wrong type, numbers that are not finite, texture indices out of range.
-pub(super) fn read(reader: &Reader, json: &BTreeMap<String, Value>) -> Result<MaterialExtensions, AssetError> {
+pub(super) fn read(reader: &Reader, json: &Map<String, Value>) -> Result<MaterialExtensions, AssetError> {
     let mut extensions = MaterialExtensions::default();
     for (name, value) in json.iter().filter(|(_, value)| !value.is_null()) {
         let Some(stem) = name.strip_prefix("KHR_materials_") else { continue };
@@ -225,8 +226,8 @@ impl Extension<'_> {
     }
 
     fn clearcoat(&self) -> Result<Clearcoat, AssetError> {
-        let normal = self.texture_info("clearcoatNormalTexture")?;
-        let scale = normal.as_ref().and_then(|info| info.scale).unwrap_or(1.0);
+        let normal: Option<NormalTexture> = self.typed("clearcoatNormalTexture")?;
+        let scale = normal.map_or(1.0, |info| info.scale);
         let [normal_scale] = self.within("clearcoatNormalTexture.scale", [scale], (-ANY, ANY))?;
         Ok(Clearcoat {
             factor: self.share("clearcoatFactor", 0.0)?,
@@ -342,10 +343,10 @@ impl Extension<'_> {
     }
 
     fn texture(&self, key: &str) -> Result<Option<TextureRef>, AssetError> {
-        self.reader.texture(&format!("{}.{key}", self.field), &self.texture_info(key)?)
+        self.reader.texture(&format!("{}.{key}", self.field), self.typed::<Info>(key)?.as_ref())
     }
 
-    fn texture_info(&self, key: &str) -> Result<Option<TextureInfo>, AssetError> {
+    fn typed<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, AssetError> {
         let Some(value) = self.keys.get(key) else { return Ok(None) };
         serde_json::from_value(value.clone()).map_err(|error| self.error(key, &format!("{error}; export it again")))
     }

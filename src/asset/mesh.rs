@@ -2,11 +2,14 @@
 
 use super::accessor::{Accessors, Normalize};
 use super::context::Context;
-use super::document::{self, Document};
-use super::topology::Mode;
+use super::document::Document;
 use super::{
-    AssetError, MAX_UV_SETS, Material, Mesh, Primitive, Topology, Vertices, influence, morph, normal, tangent,
+    AssetError, MAX_UV_SETS, Material, Mesh, Primitive, Topology, Vertices, influence, morph, normal, tangent, topology,
 };
+use ::gltf::json;
+use ::gltf::json::accessor::Type;
+use ::gltf::json::mesh::{Mode, Semantic};
+use ::gltf::json::validation::Checked;
 use glam::{Vec2, Vec3, Vec4};
 
 /// What primitives need of the rest of the file.
@@ -19,8 +22,8 @@ pub(super) struct Meshes<'a> {
 }
 
 /// Most morph targets of any primitive: what the mesh's weights count.
-pub(super) fn target_count(mesh: &document::Mesh) -> usize {
-    mesh.primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0)
+pub(super) fn target_count(mesh: &json::Mesh) -> usize {
+    mesh.primitives.iter().map(|primitive| primitive.targets.as_ref().map_or(0, Vec::len)).max().unwrap_or(0)
 }
 
 /// `weights` made `count` long; missing ones are 0.
@@ -48,7 +51,7 @@ impl Meshes<'_> {
     /// Any index out of range, list of wrong length, number that is not finite.
     pub(super) fn read(&self) -> Result<Vec<Mesh>, AssetError> {
         let joint_counts = self.joint_counts();
-        let mesh = |(m, json): (usize, &document::Mesh)| {
+        let mesh = |(m, json): (usize, &json::Mesh)| {
             let field = format!("meshes[{m}]");
             if json.primitives.is_empty() {
                 return Err(self.context.error(&field, "has no primitives"));
@@ -59,18 +62,19 @@ impl Meshes<'_> {
                 let place = format!("{field}.primitives[{p}]");
                 primitives.extend(self.primitive(&field, &place, primitive, joint_counts[m], targets)?);
             }
-            let weights = fit_weights(self.context, &format!("{field}.weights"), &json.weights, targets)?;
+            let weights = json.weights.as_deref().unwrap_or_default();
+            let weights = fit_weights(self.context, &format!("{field}.weights"), weights, targets)?;
             Ok(Mesh { name: json.name.clone(), primitives, weights })
         };
-        self.document.meshes.iter().enumerate().map(mesh).collect()
+        self.document.root.meshes.iter().enumerate().map(mesh).collect()
     }
 
     /// For each mesh the joints of the smallest skin that draws it.
     fn joint_counts(&self) -> Vec<Option<usize>> {
-        let mut counts: Vec<Option<usize>> = vec![None; self.document.meshes.len()];
-        for node in &self.document.nodes {
-            let skin = node.skin.and_then(|skin| self.document.skins.get(skin));
-            if let (Some(skin), Some(count)) = (skin, node.mesh.and_then(|mesh| counts.get_mut(mesh))) {
+        let mut counts: Vec<Option<usize>> = vec![None; self.document.root.meshes.len()];
+        for node in &self.document.root.nodes {
+            let skin = node.skin.and_then(|skin| self.document.root.skins.get(skin.value()));
+            if let (Some(skin), Some(count)) = (skin, node.mesh.and_then(|mesh| counts.get_mut(mesh.value()))) {
                 let joints = skin.joints.len();
                 *count = Some(count.map_or(joints, |smallest| smallest.min(joints)));
             }
@@ -83,16 +87,16 @@ impl Meshes<'_> {
         &self,
         mesh: &str,
         field: &str,
-        json: &document::Primitive,
+        json: &json::mesh::Primitive,
         joint_count: Option<usize>,
         target_count: usize,
     ) -> Result<Option<Primitive>, AssetError> {
         let context = self.context;
-        let code = json.mode.unwrap_or(4);
-        let mode = Mode::from_code(code)
-            .ok_or_else(|| context.error(format_args!("{field}.mode"), format_args!("{code} does not exist")))?;
+        let here = format!("{field}.mode");
+        let mode = self.document.code(&here, &json.mode);
+        let mode = mode.map_err(|code| context.error(&here, format_args!("{code} does not exist")))?;
         let (material, variant_materials) = self.materials_of(field, json)?;
-        if !json.attributes.contains_key("POSITION") {
+        if !json.attributes.contains_key(&Checked::Valid(Semantic::Positions)) {
             context.warn(field, "has no POSITION; it is skipped");
             return Ok(None);
         }
@@ -103,8 +107,9 @@ impl Meshes<'_> {
             context.warn(field, "has too few vertices to show anything; it is skipped");
             return Ok(None);
         }
-        let morph_targets = morph::read(context, self.accessors, &json.targets, field, vertex_count, target_count)?;
-        let topology = mode.topology();
+        let morph_targets =
+            morph::read(context, self.document, self.accessors, json, field, vertex_count, target_count)?;
+        let topology = topology::of(mode);
         let mut primitive = Primitive { material, variant_materials, topology, indices, vertices, morph_targets };
         self.finish_normals(mesh, field, &mut primitive)?;
         self.finish_tangents(mesh, field, &mut primitive)?;
@@ -115,21 +120,25 @@ impl Meshes<'_> {
     fn materials_of(
         &self,
         field: &str,
-        json: &document::Primitive,
+        json: &json::mesh::Primitive,
     ) -> Result<(usize, Vec<(usize, usize)>), AssetError> {
-        let count = self.document.materials.len();
+        let count = self.document.root.materials.len();
         let material = match json.material {
-            Some(material) => self.context.index(format_args!("{field}.material"), material, "materials", count)?,
+            Some(material) => {
+                self.context.index(format_args!("{field}.material"), material.value(), "materials", count)?
+            }
             None => count,
         };
-        let variant_count = self.document.extensions.variants.variants.len();
+        let variant_count = self.document.variants().len();
+        let extension = json.extensions.as_ref().and_then(|extensions| extensions.khr_materials_variants.as_ref());
         let mut pairs = Vec::new();
-        for (i, mapping) in json.extensions.variants.mappings.iter().enumerate() {
+        for (i, mapping) in extension.iter().flat_map(|extension| &extension.mappings).enumerate() {
             let here = format!("{field}.extensions.KHR_materials_variants.mappings[{i}]");
-            let material = self.context.index(format_args!("{here}.material"), mapping.material, "materials", count)?;
+            let (material, context) = (mapping.material as usize, self.context);
+            context.index(format_args!("{here}.material"), material, "materials", count)?;
             for &variant in &mapping.variants {
-                self.context.index(format_args!("{here}.variants"), variant, "variants", variant_count)?;
-                pairs.push((variant, material));
+                context.index(format_args!("{here}.variants"), variant as usize, "variants", variant_count)?;
+                pairs.push((variant as usize, material));
             }
         }
         Ok((material, pairs))
@@ -138,64 +147,70 @@ impl Meshes<'_> {
     fn vertices(
         &self,
         field: &str,
-        json: &document::Primitive,
+        json: &json::mesh::Primitive,
         joint_count: Option<usize>,
     ) -> Result<Vertices, AssetError> {
         let (context, accessors) = (self.context, self.accessors);
         let field = format!("{field}.attributes");
         let mut vertices = Vertices::default();
-        if let Some(&accessor) = json.attributes.get("POSITION") {
-            let positions = accessors.floats::<3>(&format!("{field}.POSITION"), accessor, Normalize::AsFlagged)?;
-            vertices.positions = positions.into_iter().map(Vec3::from).collect();
-        }
-        let count = vertices.positions.len();
-        for (name, &accessor) in &json.attributes {
-            let here = format!("{field}.{name}");
+        // In their order positions come before all that is counted against them.
+        for (semantic, accessor) in &json.attributes {
+            let Checked::Valid(semantic) = semantic else { continue };
+            let (here, accessor) = (format!("{field}.{}", semantic.to_string()), accessor.value());
+            let count = vertices.positions.len();
             let same_length = |len: usize| {
                 let problem = || context.error(&here, format_args!("has {len} elements, POSITION has {count}"));
                 if len == count { Ok(()) } else { Err(problem()) }
             };
-            match name.as_str() {
-                "POSITION" => {}
-                "NORMAL" => {
+            match *semantic {
+                Semantic::Positions => {
+                    let positions = accessors.floats::<3>(&here, accessor, Normalize::AsFlagged)?;
+                    vertices.positions = positions.into_iter().map(Vec3::from).collect();
+                }
+                Semantic::Normals => {
                     let normals = accessors.floats::<3>(&here, accessor, Normalize::AsFlagged)?;
                     same_length(normals.len())?;
                     vertices.normals = normals.into_iter().map(Vec3::from).collect();
                 }
-                "TANGENT" => {
+                Semantic::Tangents => {
                     let tangents = accessors.floats::<4>(&here, accessor, Normalize::AsFlagged)?;
                     same_length(tangents.len())?;
                     vertices.tangents = tangents.into_iter().map(Vec4::from).collect();
                 }
-                "COLOR_0" => {
+                Semantic::Colors(0) => {
                     vertices.colors = self.colors(&here, accessor)?;
                     same_length(vertices.colors.len())?;
                 }
-                _ if name.starts_with('_') || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => {}
-                _ => match name.strip_prefix("TEXCOORD_").map(str::parse::<usize>) {
-                    Some(Ok(set)) if set < MAX_UV_SETS => {
-                        let uvs = accessors.floats::<2>(&here, accessor, Normalize::AsFlagged)?;
-                        same_length(uvs.len())?;
-                        if vertices.uv_sets.len() <= set {
-                            vertices.uv_sets.resize(set + 1, Vec::new());
-                        }
-                        vertices.uv_sets[set] = uvs.into_iter().map(Vec2::from).collect();
+                Semantic::Colors(_) => context.warn(&here, "is not read"),
+                Semantic::TexCoords(set) if (set as usize) < MAX_UV_SETS => {
+                    let set = set as usize;
+                    let uvs = accessors.floats::<2>(&here, accessor, Normalize::AsFlagged)?;
+                    same_length(uvs.len())?;
+                    if vertices.uv_sets.len() <= set {
+                        vertices.uv_sets.resize(set + 1, Vec::new());
                     }
-                    Some(Ok(_)) => context.warn(&here, format_args!("only {MAX_UV_SETS} UV sets are kept; ignored")),
-                    _ => context.warn(&here, "is not read"),
-                },
+                    vertices.uv_sets[set] = uvs.into_iter().map(Vec2::from).collect();
+                }
+                Semantic::TexCoords(_) => {
+                    context.warn(&here, format_args!("only {MAX_UV_SETS} UV sets are kept; ignored"));
+                }
+                Semantic::Joints(_) | Semantic::Weights(_) | Semantic::Extras(_) => {}
             }
         }
+        for name in self.document.unknown_names(&field) {
+            context.warn(format_args!("{field}.{name}"), "is not read");
+        }
+        let count = vertices.positions.len();
         if let Some(joint_count) = joint_count {
             (vertices.joints, vertices.influences_per_vertex) =
-                influence::read(context, accessors, &json.attributes, &field, count, joint_count)?;
+                influence::read(context, accessors, json, &field, count, joint_count)?;
         }
         Ok(vertices)
     }
 
     fn colors(&self, field: &str, accessor: usize) -> Result<Vec<Vec4>, AssetError> {
         let colors: Vec<Vec4> = match self.accessors.shape(field, accessor)? {
-            "VEC3" => {
+            Checked::Valid(Type::Vec3) => {
                 let rgb = self.accessors.floats::<3>(field, accessor, Normalize::Always)?;
                 rgb.into_iter().map(|rgb| Vec3::from(rgb).extend(1.0)).collect()
             }
@@ -215,7 +230,7 @@ impl Meshes<'_> {
     fn indices(
         &self,
         field: &str,
-        json: &document::Primitive,
+        json: &json::mesh::Primitive,
         mode: Mode,
         vertex_count: usize,
     ) -> Result<Vec<u32>, AssetError> {
@@ -223,6 +238,7 @@ impl Meshes<'_> {
         let here = format!("{field}.indices");
         let order: Vec<u32> = match json.indices {
             Some(accessor) => {
+                let accessor = accessor.value();
                 let order = self.accessors.unsigned::<1>(&here, accessor)?;
                 for (i, &[index]) in order.iter().enumerate() {
                     if index as usize >= vertex_count {
@@ -239,8 +255,8 @@ impl Meshes<'_> {
                 (0..count).collect()
             }
         };
-        context.spend(&here, order.len() as u64 * mode.growth() * size_of::<u32>() as u64)?;
-        let (list, rest) = mode.unroll(order);
+        context.spend(&here, order.len() as u64 * topology::growth(mode) * size_of::<u32>() as u64)?;
+        let (list, rest) = topology::unroll(mode, order);
         if rest > 0 {
             context.warn(&here, format_args!("the last {rest} entries make no whole {mode:?} primitive; ignored"));
         }

@@ -1,8 +1,10 @@
 //! Nodes and scenes: a checked forest.
 
 use super::context::Context;
-use super::document::{self, Document};
+use super::document::Document;
 use super::{AssetError, AssetScene, Node, Transform, mesh};
+use ::gltf::json::scene::UnitQuaternion;
+use ::gltf::json::{self, Index};
 use glam::{DQuat, Mat4, Quat, Vec3, Vec4};
 
 /// How far from 1 a rotation's length may be before it is worth a word.
@@ -22,7 +24,7 @@ pub(super) fn rotation(xyzw: [f32; 4], tolerance: f64) -> (Quat, Option<&'static
 
 /// How errors call a node.
 fn title(document: &Document, node: usize) -> String {
-    match document.nodes.get(node).and_then(|node| node.name.as_ref()) {
+    match document.root.nodes.get(node).and_then(|node| node.name.as_ref()) {
         Some(name) => format!("nodes[{node}] `{name}`"),
         None => format!("nodes[{node}]"),
     }
@@ -34,32 +36,32 @@ fn title(document: &Document, node: usize) -> String {
 /// Indices out of range, numbers that are not finite, a node with two parents or inside itself.
 pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Node>, AssetError> {
     check_forest(context, document)?;
-    let node = |(n, json): (usize, &document::Node)| {
+    let node = |(n, json): (usize, &json::Node)| {
         let field = format!("nodes[{n}]");
         let point = |name: &str, index: Option<usize>, list: &str, len: usize| match index {
             Some(index) => context.index(format_args!("{field}.{name}"), index, list, len).map(Some),
             None => Ok(None),
         };
-        let mesh = point("mesh", json.mesh, "meshes", document.meshes.len())?;
-        let mut skin = point("skin", json.skin, "skins", document.skins.len())?;
+        let mesh = point("mesh", json.mesh.map(|mesh| mesh.value()), "meshes", document.root.meshes.len())?;
+        let mut skin = point("skin", json.skin.map(|skin| skin.value()), "skins", document.root.skins.len())?;
         if skin.is_some() && mesh.is_none() {
             context.warn(format_args!("{field}.skin"), "the node has no mesh; it is ignored");
             skin = None;
         }
-        let camera = point("camera", json.camera, "cameras", document.cameras.len())?;
-        let lights = &document.extensions.lights.lights;
-        let light = json.extensions.light.as_ref().map(|light| light.light);
-        let light = point("extensions.KHR_lights_punctual.light", light, "lights", lights.len())?;
-        let weights = match mesh {
-            Some(mesh) if !json.weights.is_empty() => {
-                let targets = mesh::target_count(&document.meshes[mesh]);
-                mesh::fit_weights(context, &format!("{field}.weights"), &json.weights, targets)?
+        let camera = point("camera", json.camera.map(|camera| camera.value()), "cameras", document.root.cameras.len())?;
+        let light = json.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+        let light = light.map(|extension| extension.light.value());
+        let light = point("extensions.KHR_lights_punctual.light", light, "lights", document.lights().len())?;
+        let weights = match (mesh, &json.weights) {
+            (Some(mesh), Some(weights)) if !weights.is_empty() => {
+                let targets = mesh::target_count(&document.root.meshes[mesh]);
+                mesh::fit_weights(context, &format!("{field}.weights"), weights, targets)?
             }
             _ => Vec::new(),
         };
         Ok(Node {
             name: json.name.clone(),
-            children: json.children.clone(),
+            children: json.children.iter().flatten().map(Index::value).collect(),
             transform: transform(context, &field, json)?,
             mesh,
             skin,
@@ -68,10 +70,10 @@ pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Node>, 
             weights,
         })
     };
-    document.nodes.iter().enumerate().map(node).collect()
+    document.root.nodes.iter().enumerate().map(node).collect()
 }
 
-fn transform(context: &Context, field: &str, json: &document::Node) -> Result<Transform, AssetError> {
+fn transform(context: &Context, field: &str, json: &json::Node) -> Result<Transform, AssetError> {
     if let Some(matrix) = &json.matrix {
         context.finite(format_args!("{field}.matrix"), matrix)?;
         let mut matrix = Mat4::from_cols_array(matrix);
@@ -85,7 +87,7 @@ fn transform(context: &Context, field: &str, json: &document::Node) -> Result<Tr
     }
     let translation = json.translation.unwrap_or([0.0; 3]);
     let scale = json.scale.unwrap_or([1.0; 3]);
-    let xyzw = json.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    let UnitQuaternion(xyzw) = json.rotation.unwrap_or_default();
     context.finite(format_args!("{field}.translation"), &translation)?;
     context.finite(format_args!("{field}.rotation"), &xyzw)?;
     context.finite(format_args!("{field}.scale"), &scale)?;
@@ -98,11 +100,11 @@ fn transform(context: &Context, field: &str, json: &document::Node) -> Result<Tr
 
 /// The parent of each node.
 fn parents(context: &Context, document: &Document) -> Result<Vec<Option<usize>>, AssetError> {
-    let mut parents: Vec<Option<usize>> = vec![None; document.nodes.len()];
-    for (n, node) in document.nodes.iter().enumerate() {
-        for (c, &child) in node.children.iter().enumerate() {
+    let mut parents: Vec<Option<usize>> = vec![None; document.root.nodes.len()];
+    for (n, node) in document.root.nodes.iter().enumerate() {
+        for (c, child) in node.children.iter().flatten().map(Index::value).enumerate() {
             let field = format!("nodes[{n}].children[{c}]");
-            context.index(&field, child, "nodes", document.nodes.len())?;
+            context.index(&field, child, "nodes", document.root.nodes.len())?;
             if let Some(other) = parents[child].replace(n) {
                 let (other, here) = (title(document, other), title(document, n));
                 let problem = format!("has two parents, {other} and {here}; give it one");
@@ -113,22 +115,26 @@ fn parents(context: &Context, document: &Document) -> Result<Vec<Option<usize>>,
     Ok(parents)
 }
 
-/// Climbs from every node; marks spare climbing a path twice, so deep chains cost nothing more.
 fn check_forest(context: &Context, document: &Document) -> Result<(), AssetError> {
-    let parents = parents(context, document)?;
+    match in_cycle(&parents(context, document)?) {
+        Some(node) => Err(context.error(title(document, node), "is its own ancestor; break the cycle of children")),
+        None => Ok(()),
+    }
+}
+
+/// A node that is its own ancestor. Climbs from every node; marks spare climbing a path twice, so deep chains cost nothing
+/// more.
+pub(super) fn in_cycle(parents: &[Option<usize>]) -> Option<usize> {
     // 0 = not seen; otherwise the climb that saw it.
     let mut seen = vec![0; parents.len()];
-    for start in 0..parents.len() {
+    (0..parents.len()).find_map(|start| {
         let mut at = Some(start);
         while let Some(node) = at.filter(|node| seen[*node] == 0) {
             seen[node] = start + 1;
             at = parents[node];
         }
-        if let Some(node) = at.filter(|node| seen[*node] == start + 1) {
-            return Err(context.error(title(document, node), "is its own ancestor; break the cycle of children"));
-        }
-    }
-    Ok(())
+        at.filter(|node| seen[*node] == start + 1)
+    })
 }
 
 /// The root above each node of a forest; each path is climbed once.
@@ -159,11 +165,11 @@ fn tree_roots(parents: &[Option<usize>]) -> Vec<usize> {
 pub(super) fn read_scenes(context: &Context, document: &Document) -> Result<(Vec<AssetScene>, usize), AssetError> {
     let parents = parents(context, document)?;
     let tree_roots = tree_roots(&parents);
-    let mut scenes = Vec::with_capacity(document.scenes.len().max(1));
-    for (s, json) in document.scenes.iter().enumerate() {
+    let mut scenes = Vec::with_capacity(document.root.scenes.len().max(1));
+    for (s, json) in document.root.scenes.iter().enumerate() {
         let mut roots = Vec::with_capacity(json.nodes.len());
         let mut known = std::collections::HashSet::new();
-        for (n, &node) in json.nodes.iter().enumerate() {
+        for (n, node) in json.nodes.iter().map(Index::value).enumerate() {
             let field = format!("scenes[{s}].nodes[{n}]");
             context.index(&field, node, "nodes", parents.len())?;
             let root = tree_roots[node];
@@ -181,8 +187,8 @@ pub(super) fn read_scenes(context: &Context, document: &Document) -> Result<(Vec
         let roots = (0..parents.len()).filter(|node| parents[*node].is_none()).collect();
         scenes.push(AssetScene { name: None, roots });
     }
-    let default_scene = match document.scene {
-        Some(scene) => context.index("scene", scene, "scenes", document.scenes.len())?,
+    let default_scene = match document.root.scene {
+        Some(scene) => context.index("scene", scene.value(), "scenes", document.root.scenes.len())?,
         None => 0,
     };
     Ok((scenes, default_scene))

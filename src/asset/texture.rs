@@ -2,57 +2,67 @@
 
 use super::accessor::Accessors;
 use super::context::Context;
-use super::document::Document;
+use super::document::{Document, present};
 use super::{AssetError, Image, Material, Sampler, Texture, Wrap, image, uri};
+use ::gltf::json;
+use ::gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
+use ::gltf::json::validation::Checked;
 
 /// All textures. One without an image points to an empty image appended after the file's own.
 ///
 /// # Errors
 /// Indices out of range; filter or wrap codes that do not exist.
 pub(super) fn read(context: &Context, document: &Document) -> Result<Vec<Texture>, AssetError> {
-    let texture = |(t, json): (usize, &super::document::Texture)| {
+    let texture = |(t, json): (usize, &json::Texture)| {
         let field = format!("textures[{t}]");
-        let image = match json.source {
-            Some(source) => context.index(format_args!("{field}.source"), source, "images", document.images.len())?,
-            None => document.images.len(),
+        let image = match present(json.source) {
+            Some(source) => {
+                context.index(format_args!("{field}.source"), source, "images", document.root.images.len())?
+            }
+            None => document.root.images.len(),
         };
         let sampler = match json.sampler {
             None => Sampler::default(),
-            Some(s) => {
-                context.index(format_args!("{field}.sampler"), s, "samplers", document.samplers.len())?;
-                sampler(context, s, &document.samplers[s])?
+            Some(index) => {
+                let (samplers, index) = (&document.root.samplers, index.value());
+                context.index(format_args!("{field}.sampler"), index, "samplers", samplers.len())?;
+                sampler(context, document, index, &samplers[index])?
             }
         };
         Ok(Texture { image, sampler })
     };
-    document.textures.iter().enumerate().map(texture).collect()
+    document.root.textures.iter().enumerate().map(texture).collect()
 }
 
-fn sampler(context: &Context, index: usize, json: &super::document::Sampler) -> Result<Sampler, AssetError> {
-    let field = format!("samplers[{index}]");
-    let unknown =
-        |name: &str, code| context.error(format_args!("{field}.{name}"), format_args!("{code} does not exist"));
-    let wrap = |name, code| match code {
-        None | Some(10497) => Ok(Wrap::Repeat),
-        Some(33648) => Ok(Wrap::Mirror),
-        Some(33071) => Ok(Wrap::Clamp),
-        Some(code) => Err(unknown(name, code)),
+fn sampler(
+    context: &Context,
+    document: &Document,
+    index: usize,
+    json: &json::texture::Sampler,
+) -> Result<Sampler, AssetError> {
+    let field = |name: &str| format!("samplers[{index}].{name}");
+    let unknown = |name: &str, code: &str| context.error(field(name), format_args!("{code} does not exist"));
+    let wrap = |name: &str, mode: &Checked<WrappingMode>| match document.code(&field(name), mode) {
+        Ok(WrappingMode::Repeat) => Ok(Wrap::Repeat),
+        Ok(WrappingMode::MirroredRepeat) => Ok(Wrap::Mirror),
+        Ok(WrappingMode::ClampToEdge) => Ok(Wrap::Clamp),
+        Err(code) => Err(unknown(name, code)),
     };
-    let mag_linear = match json.mag_filter {
-        None | Some(9729) => true,
-        Some(9728) => false,
-        Some(code) => return Err(unknown("magFilter", code)),
+    let mag_filter = json.mag_filter.as_ref().map(|filter| document.code(&field("magFilter"), filter));
+    let mag_linear = match mag_filter.transpose().map_err(|code| unknown("magFilter", code))? {
+        None | Some(MagFilter::Linear) => true,
+        Some(MagFilter::Nearest) => false,
     };
-    let (min_linear, mip_linear) = match json.min_filter {
-        None | Some(9987) => (true, Some(true)),
-        Some(9728) => (false, None),
-        Some(9729) => (true, None),
-        Some(9984) => (false, Some(false)),
-        Some(9985) => (true, Some(false)),
-        Some(9986) => (false, Some(true)),
-        Some(code) => return Err(unknown("minFilter", code)),
+    let min_filter = json.min_filter.as_ref().map(|filter| document.code(&field("minFilter"), filter));
+    let (min_linear, mip_linear) = match min_filter.transpose().map_err(|code| unknown("minFilter", code))? {
+        None | Some(MinFilter::LinearMipmapLinear) => (true, Some(true)),
+        Some(MinFilter::Nearest) => (false, None),
+        Some(MinFilter::Linear) => (true, None),
+        Some(MinFilter::NearestMipmapNearest) => (false, Some(false)),
+        Some(MinFilter::LinearMipmapNearest) => (true, Some(false)),
+        Some(MinFilter::NearestMipmapLinear) => (false, Some(true)),
     };
-    let wrap = [wrap("wrapS", json.wrap_s)?, wrap("wrapT", json.wrap_t)?];
+    let wrap = [wrap("wrapS", &json.wrap_s)?, wrap("wrapT", &json.wrap_t)?];
     Ok(Sampler { wrap, mag_linear, min_linear, mip_linear })
 }
 
@@ -67,7 +77,7 @@ pub(super) fn read_images(
     materials: &[Material],
     textures: &[Texture],
 ) -> Result<Vec<Image>, AssetError> {
-    let mut used = vec![false; document.images.len() + 1];
+    let mut used = vec![false; document.root.images.len() + 1];
     for material in materials {
         let references = [
             material.base_color_texture,
@@ -81,7 +91,7 @@ pub(super) fn read_images(
         }
     }
     let mut images = Vec::with_capacity(used.len());
-    for (i, json) in document.images.iter().enumerate() {
+    for (i, json) in document.root.images.iter().enumerate() {
         let short_uri = json.uri.as_ref().filter(|uri| !uri.starts_with("data:"));
         let name = json.name.as_ref().or(short_uri).cloned().unwrap_or_else(|| format!("image {i}"));
         if !used[i] {
@@ -93,12 +103,12 @@ pub(super) fn read_images(
             (Some(uri), _) => {
                 image::decode(context, &field, &uri::read(context, &format!("{field}.uri"), uri)?, &name)?
             }
-            (None, Some(view)) => image::decode(context, &field, accessors.view(&field, view)?, &name)?,
+            (None, Some(view)) => image::decode(context, &field, accessors.view(&field, view.value())?, &name)?,
             (None, None) => return Err(context.error(field, "has neither uri nor bufferView; export it again")),
         };
         images.push(image);
     }
-    if textures.iter().any(|texture| texture.image == document.images.len()) {
+    if textures.iter().any(|texture| texture.image == document.root.images.len()) {
         images.push(Image { name: "none".to_owned(), ..Image::default() });
     }
     Ok(images)

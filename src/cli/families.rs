@@ -10,7 +10,7 @@ use std::path::Path;
 use vair::asset::procedural::lit_quad;
 use vair::asset::{LoadOptions, Material};
 use vair::material::Look;
-use vair::profile::FamilyProfile;
+use vair::measure::profile::FamilyProfile;
 use vair::scene::{CameraChoice, Scene};
 
 pub fn run(scene: &SceneArguments, device: &DeviceArguments, rounds: u32, is_json: bool) -> Result<()> {

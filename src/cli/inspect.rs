@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use vair::gpu::format_bytes;
-use vair::render::{Attachment, FrameOptions, PICTURE_FORMAT, Pass, PipelineSpec, Plan, Shot, TextureUse};
+use vair::render::{Attachment, Blending, FrameOptions, FrameSetup, PICTURE_FORMAT, PipelineSpec, Plan, TextureUse};
 use vair::scene::Scene;
 
 #[derive(Debug, Args)]
@@ -28,21 +28,23 @@ pub fn run(arguments: &InspectArguments) -> Result<()> {
     }
     let scene = arguments.scene.load()?;
     let options = arguments.scene.frame_options(&scene, false)?;
-    let plan = Shot::new(&scene, &options)?.plan;
+    let setup = FrameSetup::new(&scene, &options)?;
     if arguments.json {
-        return output::print_json(&as_json(&scene, &plan, &options));
+        return output::print_json(&as_json(&scene, &setup, &options));
     }
-    output::print(&as_text(&scene, &plan, &options))
+    output::print(&as_text(&scene, &setup, &options))
 }
 
-fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
-    let passes = plan.passes.iter().map(|pass| json!({ "name": pass.name(), "draws": draws(plan, *pass) }));
+fn as_json(scene: &Scene, setup: &FrameSetup, options: &FrameOptions) -> Value {
+    let (plan, plan_options) = (&setup.staging.plan, options.plan_options());
+    let passes =
+        plan.passes.iter().map(|pass| json!({ "name": pass.name(), "draws": plan.draw_count(*pass, &plan_options) }));
     let compute = plan
         .compute_pipelines
         .iter()
-        .map(|spec| json!({ "name": spec.shader, "state": { "constants": constants(&spec.constants) } }));
-    let tonemap = tonemap(options);
-    let pipelines = compute.chain(plan.pipelines.iter().chain(&plan.composition).chain([&tonemap]).map(pipeline));
+        .map(|spec| json!({ "name": spec.shader.to_string(), "state": { "constants": constants(&spec.constants) } }));
+    let full_screen = plan.full_screen(&plan_options);
+    let pipelines = compute.chain(plan.pipelines.iter().chain(&full_screen).map(pipeline));
     let textures = plan.textures.iter().map(|texture| {
         let name = &scene.asset().images[texture.image].name;
         json!({ "name": name, "format": format(texture), "bytes": texture.bytes(scene.asset()) })
@@ -64,28 +66,29 @@ fn as_json(scene: &Scene, plan: &Plan, options: &FrameOptions) -> Value {
             "texture_bytes": plan.textures.iter().map(|texture| texture.bytes(scene.asset())).sum::<u64>(),
             "target_bytes": target_bytes(plan, options), "by_owner": plan.memory(scene, options),
         },
-        "left_out": output::left_out(&plan.left_out),
+        "left_out": output::left_out(&setup.skipped(scene)),
         "lint": scene.asset().warnings,
     })
 }
 
-fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
+fn as_text(scene: &Scene, setup: &FrameSetup, options: &FrameOptions) -> String {
+    let (plan, plan_options) = (&setup.staging.plan, options.plan_options());
     let mut text = "passes\n".to_owned();
     for pass in &plan.passes {
-        text += &format!("  {:<12} {} draws\n", pass.name(), draws(plan, *pass));
+        text += &format!("  {:<34} {} draws\n", pass.name(), plan.draw_count(*pass, &plan_options));
     }
     text += "attachments\n";
     for Attachment { name, format, samples, .. } in &plan.attachments {
         text += &format!("  {name} {format:?}, {samples} samples\n");
     }
-    for (name, format) in plan.shadows.images() {
-        text += &format!("  {name} {format:?}, {:?} texels\n", plan.shadows.size());
+    for (name, format, size) in plan.shadow_images() {
+        text += &format!("  {name} {format:?}, {size:?} texels\n");
     }
     text += "pipelines\n";
     for spec in &plan.compute_pipelines {
         text += &format!("  {} ({})\n", spec.shader, constants_text(&spec.constants));
     }
-    for spec in plan.pipelines.iter().chain(&plan.composition).chain([&tonemap(options)]) {
+    for spec in plan.pipelines.iter().chain(&plan.full_screen(&plan_options)) {
         text += &format!("  {} with {} ({})\n", spec.fragment, spec.vertex, constants_text(&spec.constants));
         let names = |set: BTreeSet<&str>| set.into_iter().collect::<Vec<_>>().join(" ");
         text += &format!("    binds {}, reads {}\n", names(spec.bindings()), names(spec.inputs()));
@@ -100,7 +103,7 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
         text += &format!("  {bytes:>12} {owner}\n");
     }
     text += "left out\n";
-    for left in &plan.left_out {
+    for left in setup.skipped(scene) {
         text += &format!("  {}: {}\n", left.what, left.why);
     }
     for warning in &scene.asset().warnings {
@@ -109,35 +112,13 @@ fn as_text(scene: &Scene, plan: &Plan, options: &FrameOptions) -> String {
     text
 }
 
-/// The tone mapping is no part of the plan, since it depends on the target; `vair render` draws into this one.
-fn tonemap(options: &FrameOptions) -> PipelineSpec {
-    PipelineSpec::tonemap(options.tonemap, options.hdr_format, PICTURE_FORMAT, options.shows_environment())
-}
-
-fn draws(plan: &Plan, pass: Pass) -> usize {
-    match pass {
-        Pass::Deform => plan.deforms.len(),
-        Pass::Sway => plan.sways.len(),
-        Pass::Guide => plan.guide.len(),
-        Pass::Shadow => plan.shadows.opaque.len(),
-        Pass::ShadowFront => plan.shadows.front.len(),
-        Pass::ShadowBack => plan.shadows.back.len(),
-        Pass::ShadowLayers => plan.shadows.layers.len(),
-        Pass::Opaque => plan.opaque.len(),
-        Pass::Fur => plan.fur.len(),
-        Pass::Transparent => plan.transparent.len(),
-        Pass::Transparency => usize::from(plan.composition.is_some()),
-        Pass::ScreenOcclusion | Pass::ScreenOcclusionBlur | Pass::Tonemap => 1,
-    }
-}
-
 fn pipeline(spec: &PipelineSpec) -> Value {
     json!({
         "name": spec.name(),
         "state": {
-            "vertex": spec.vertex, "fragment": spec.fragment, "constants": constants(&spec.constants),
-            "topology": format!("{:?}", spec.topology), "blend": spec.blend, "depth": format!("{:?}", spec.depth),
-            "bindings": spec.bindings(), "inputs": spec.inputs(), "samples": spec.samples, "color_format": format!("{:?}", spec.color_format),
+            "vertex": spec.vertex.to_string(), "fragment": spec.fragment.to_string(), "constants": constants(&spec.constants),
+            "topology": format!("{:?}", spec.topology), "blend": spec.blending != Blending::Replace, "depth": format!("{:?}", spec.depth),
+            "bindings": spec.bindings(), "inputs": spec.inputs(), "samples": spec.targets.samples, "color_format": format!("{:?}", spec.targets.color[0]),
         },
     })
 }
@@ -157,6 +138,6 @@ fn format(texture: &TextureUse) -> &'static str {
 /// What the frame draws into, and the picture.
 fn target_bytes(plan: &Plan, options: &FrameOptions) -> u64 {
     let picture = format_bytes(PICTURE_FORMAT, options.size).unwrap_or(0);
-    let shadows: u64 = plan.shadows.images().iter().map(|(_, format)| plan.shadows.bytes(*format)).sum();
+    let shadows: u64 = plan.shadow_images().filter_map(|(_, format, size)| format_bytes(format, size)).sum();
     plan.attachments.iter().map(|attachment| attachment.bytes(options.size)).sum::<u64>() + shadows + picture
 }

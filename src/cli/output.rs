@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use vair::gpu::DeviceInfo;
-use vair::render::{CoatReport, LeftOut};
+use vair::render::{FurReport, Skipped};
 
 /// Prints to standard output. A closed pipe is the reader's choice, not a failure.
 pub fn print(text: &str) -> Result<()> {
@@ -77,18 +77,18 @@ pub fn device(info: &DeviceInfo) -> Value {
     json!({ "name": info.name, "driver": info.driver, "api": info.api })
 }
 
-/// Coats in JSON.
-pub fn coats(coats: &[CoatReport]) -> Value {
-    let one = |coat: &CoatReport| {
+/// Fur in JSON.
+pub fn fur(reports: &[FurReport]) -> Value {
+    let one = |fur: &FurReport| {
         json!({
-            "material": coat.material, "layers": coat.layers, "instances": coat.instances,
-            "vertices_stored": coat.vertices_stored,
+            "material": fur.material, "layers": fur.layers, "instances": fur.instances,
+            "vertices_stored": fur.vertices_stored,
         })
     };
-    coats.iter().map(one).collect()
+    reports.iter().map(one).collect()
 }
 
 /// What a frame does without, in JSON.
-pub fn left_out(list: &[LeftOut]) -> Value {
+pub fn left_out(list: &[Skipped]) -> Value {
     list.iter().map(|left| json!({ "what": left.what, "why": left.why })).collect()
 }

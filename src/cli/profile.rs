@@ -8,8 +8,8 @@ use anyhow::Result;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use vair::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
-use vair::render::PassFragments;
+use vair::measure::PassFragments;
+use vair::measure::profile::{DEFAULT_FRAMES, PassProfile, Profile, Spread, Start};
 
 const COLUMNS: [&str; 11] = [
     "pass",
@@ -98,7 +98,7 @@ fn as_json(profile: &Profile, [width, height]: [u32; 2], samples: u32) -> Value 
         "image": { "width": width, "height": height, "samples": samples },
         "ms": { "frame": spread(profile.frame_ms), "gpu": profile.gpu_ms.map(spread), "cpu": cpu },
         "passes": passes.collect::<Vec<_>>(),
-        "fur": output::coats(&profile.fur),
+        "fur": output::fur(&profile.fur),
         "memory": {
             "device_bytes": memory.device_bytes, "peak_bytes": memory.peak_bytes, "by_use": by_use,
             "by_owner": by_owner,

@@ -16,8 +16,9 @@ use std::time::Instant;
 
 use vair::gpu::DeviceInfo;
 use vair::material::Material;
-use vair::profile::Spread;
-use vair::render::{FrameOptions, FrameReport, PassFragments, PictureFormat, Renderer};
+use vair::measure::profile::Spread;
+use vair::measure::{PassFragments, can_count_fragments, count_fragments};
+use vair::render::{FrameOptions, FrameReport, PictureFormat, Renderer};
 use vair::scene::Scene;
 
 #[derive(Debug, Args)]
@@ -125,8 +126,8 @@ pub fn run(arguments: &RenderArguments) -> Result<()> {
     let info = renderer.gpu().info().clone();
     let host_peak_bytes = host_peak_bytes();
     // Last: counting takes pipelines and memory of its own.
-    let fragments = match arguments.json && renderer.can_count_fragments(&options) {
-        true => renderer.count_fragments(&scene, &options)?,
+    let fragments = match arguments.json && can_count_fragments(renderer.gpu(), &options) {
+        true => count_fragments(&mut renderer, &scene, &options)?,
         false => Vec::new(),
     };
     // What the end of the device brings up counts, too.
@@ -248,10 +249,10 @@ fn summary(rendered: &Rendered) -> Value {
             "frame_count": times.frames_ms.len(),
         },
         "passes": passes.collect::<Vec<_>>(),
-        "fur": output::coats(&report.fur),
+        "fur": output::fur(&report.fur),
         "transparency": report.lists.map(|lists| json!({ "fragments": lists.fragments, "entries": lists.entries })),
         "memory": { "device_bytes": report.memory.device_bytes, "host_peak_bytes": host_peak_bytes },
-        "left_out": output::left_out(&report.left_out),
+        "left_out": output::left_out(&report.skipped),
         "warnings": scene.asset().warnings,
         "validation_messages": messages,
     })

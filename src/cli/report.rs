@@ -7,7 +7,7 @@ use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
 use vair::gpu::Gpu;
-use vair::report::{self, Effort, LAYERS_4X, Question, Report};
+use vair::measure::report::{self, Effort, LAYERS_4X, Report, Sweep};
 
 #[derive(Debug, Args)]
 pub struct ReportArguments {
@@ -30,7 +30,7 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
     let effort = if arguments.quick { Effort::quick() } else { Effort::full() };
     let gpu = Gpu::new(&arguments.device.options(pipeline_cache_dir()))?;
     let bar = output::progress(true, "{bar:40} {msg} {pos}/{len}");
-    let measured = report::measure(&gpu, &Question::all(&effort), &effort, &mut |stage, done, count| {
+    let measured = report::measure(&gpu, &Sweep::all(&effort), &effort, &mut |stage, done, count| {
         bar.set_length(count as u64);
         bar.set_position(done as u64);
         bar.set_message(stage);
@@ -50,13 +50,13 @@ pub fn run(arguments: &ReportArguments) -> Result<()> {
 
 fn as_text(report: &Report, arguments: &ReportArguments) -> String {
     let figure = |value: Option<f64>| value.map_or_else(|| "not measured".to_owned(), |value| format!("{value:.2}"));
-    let headline = &report.headline;
+    let summary = &report.summary;
     let mut text = format!("{}\n", arguments.out.join("index.html").display());
-    text += &format!("speed at the error of 20 classic draws: {} times\n", figure(headline.equal_error_speedup));
+    text += &format!("speed at the error of 20 classic draws: {} times\n", figure(summary.equal_error_speedup));
     let [few, many] = LAYERS_4X;
-    text += &format!("{many} layers over {few}: {} times the time\n", figure(headline.layers_4x_cost));
-    text += &format!("whole coat over one opaque layer: {} times the time\n", figure(headline.vs_one_layer));
-    for note in &headline.notes {
+    text += &format!("{many} layers over {few}: {} times the time\n", figure(summary.layers_4x_cost));
+    text += &format!("whole fur over one opaque layer: {} times the time\n", figure(summary.vs_one_layer));
+    for note in &summary.notes {
         text += &format!("{note}\n");
     }
     text

@@ -15,7 +15,7 @@ use vair::render::{
     Aovs, Background, EnvironmentQuality, FrameOptions, HdrFormat, ScreenOcclusion, Shadows, Shells, Tonemap,
     Transparency,
 };
-use vair::scene::{self, CameraChoice, Scene, SceneError, Surroundings};
+use vair::scene::{self, CameraChoice, EnvironmentLight, Scene, SceneError};
 
 /// What to show.
 #[derive(Debug, Args)]
@@ -66,7 +66,7 @@ pub struct SceneArguments {
     /// material says, high 1.5 times the shells, reference 3 times.
     #[arg(long, value_enum, default_value_t = Quality::Normal, hide_possible_values = true, value_name = "draft/normal/high/reference")]
     quality: Quality,
-    /// Shells a coat, or auto for what each material says; wins over --quality.
+    /// Shell layers of fur, or auto for what each material says; wins over --quality.
     #[arg(long, value_name = "N/auto", value_parser = values::layers)]
     layers: Option<Layers>,
     /// Samples a pixel; wins over --quality.
@@ -225,7 +225,7 @@ impl SceneArguments {
                 TonemapChoice::None => Tonemap::None,
             },
             exposure_ev: self.exposure,
-            surroundings: self.surroundings()?,
+            environment: self.environment()?,
             environment_quality: EnvironmentQuality::default(),
             lights: Vec::new(),
             shadows: Shadows { are_cast: self.shadows == Switch::On, ..Shadows::default() },
@@ -263,16 +263,16 @@ impl SceneArguments {
     }
 
     /// What is all around; says what was odd about its file.
-    fn surroundings(&self) -> Result<Surroundings> {
-        let mut surroundings = Surroundings::studio();
+    fn environment(&self) -> Result<EnvironmentLight> {
+        let mut light = EnvironmentLight::studio();
         if let Some(path) = &self.env {
             let (environment, warnings) = Environment::load(path, &self.limits())?;
             for warning in warnings {
                 output::complain(&format!("warning: {}: {warning}", path.display()));
             }
-            surroundings = Surroundings::new(Arc::new(environment));
+            light = EnvironmentLight::new(Arc::new(environment));
         }
-        Ok(Surroundings { rotation_deg: self.env_rotation, strength: self.env_strength, ..surroundings })
+        Ok(EnvironmentLight { rotation_deg: self.env_rotation, strength: self.env_strength, ..light })
     }
 
     fn limits(&self) -> LoadOptions {
@@ -282,7 +282,7 @@ impl SceneArguments {
     /// Without a camera of the file.
     fn view(&self) -> CameraChoice {
         if self.orbit.is_none() && self.target.is_none() && self.fov.is_none() {
-            // The gallery is composed for one view; its backdrop is not what should fill the picture.
+            // The gallery is composed for one view; its background is not what should fill the picture.
             return match self.scene_file {
                 Some(_) => CameraChoice::Auto,
                 None => CameraChoice::Named(GALLERY_CAMERA.to_owned()),

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use vair::math::linear_from_srgb;
 use vair::render::{Background, MAX_LAYERS, PictureFormat, RenderError};
 
-/// Shells a coat.
+/// Shell layers of fur.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layers {
     /// What each material says.

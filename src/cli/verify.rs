@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use vair::gpu::Gpu;
-use vair::verify::{self, FunctionReport, Report, Worst};
+use vair::measure::verify::{self, FunctionReport, Report, Worst};
 
 #[derive(Debug, Args)]
 pub struct VerifyArguments {

@@ -77,6 +77,11 @@ impl Buffer {
         self.0.bytes
     }
 
+    /// A number that no other live buffer has.
+    pub fn place(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
+    }
+
     /// Name given at creation.
     pub fn name(&self) -> &str {
         &self.0.name

@@ -88,6 +88,8 @@ pub struct DeviceInfo {
     pub max_anisotropy: f32,
     /// Largest uniform block, bytes.
     pub max_uniform_bytes: u64,
+    /// Offsets of uniform blocks are multiples of this, bytes.
+    pub uniform_alignment: u64,
     /// Largest storage block, bytes.
     pub max_storage_bytes: u64,
     /// Most workgroups of one dispatch in x, y and z.
@@ -221,6 +223,7 @@ pub(crate) fn examine(instance: &ash::Instance, physical: vk::PhysicalDevice, gi
         fragment_stores: false,
         max_anisotropy: limits.max_sampler_anisotropy,
         max_uniform_bytes: u64::from(limits.max_uniform_buffer_range),
+        uniform_alignment: limits.min_uniform_buffer_offset_alignment.max(1),
         max_storage_bytes: u64::from(limits.max_storage_buffer_range),
         max_workgroups: limits.max_compute_work_group_count,
     };

@@ -1,8 +1,8 @@
-//! Bind groups: descriptor sets filled by name.
+//! Bind groups: descriptor sets filled by name. The sets themselves are recycled.
 
 use super::barrier::{ImageUse, layout};
 use super::buffer::Buffer;
-use super::device::{Context, Gpu};
+use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
 use super::image::{Image, ImageInner};
 use super::interface::{SET_COUNT, Slot};
@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// What a binding may refer to.
 #[derive(Clone, Copy)]
 pub enum Resource<'a> {
-    /// A whole buffer, as uniform or storage block.
+    /// A buffer: the whole of it as storage block; as uniform block, as much as the block has from an offset on that is
+    /// given when the group is bound.
     Buffer(&'a Buffer),
     /// An image that is read through a sampler, all levels.
     Texture(&'a Image),
@@ -30,12 +31,13 @@ pub struct BindGroup(pub(crate) Arc<GroupInner>);
 
 pub(crate) struct GroupInner {
     context: Arc<Context>,
-    pool: vk::DescriptorPool,
     pub(crate) raw: vk::DescriptorSet,
     pub(crate) layout: vk::DescriptorSetLayout,
     pub(crate) name: String,
     /// Images and the use that the shaders make of them.
     pub(crate) images: Vec<(Arc<ImageInner>, ImageUse)>,
+    /// Of each uniform block, by binding: the largest offset at which its buffer holds all of it, bytes.
+    pub(crate) last_offsets: Vec<u64>,
     _kept: Vec<Arc<dyn Any + Send + Sync>>,
 }
 
@@ -43,6 +45,11 @@ impl BindGroup {
     /// Name given at creation.
     pub fn name(&self) -> &str {
         &self.0.name
+    }
+
+    /// Uniform blocks in it: as many offsets may be given when it is bound.
+    pub fn uniform_blocks(&self) -> usize {
+        self.0.last_offsets.len()
     }
 }
 
@@ -92,30 +99,24 @@ impl Gpu {
             }
         }
 
-        let failed = |result| GpuError::from_vk("creating bind group", name, result);
-        // A pool of its own: never fragmented, freed with the group.
-        let sizes: Vec<_> = slots
-            .iter()
-            .map(|slot| vk::DescriptorPoolSize::default().ty(slot.descriptor).descriptor_count(1))
-            .collect();
-        let pool_info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
-        // SAFETY: one set and counts of at least 1 are asked for.
-        let pool = unsafe { context.device.create_descriptor_pool(&pool_info, None) }.map_err(failed)?;
-        // From here on the inner value frees the pool on every path.
-        let mut group = GroupInner {
+        let mut last_offsets = Vec::new();
+        for slot in slots.iter().filter(|slot| slot.descriptor == vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC) {
+            let given = resources.iter().find(|(offered, _)| *offered == slot.name);
+            if let Some((_, Resource::Buffer(buffer))) = given {
+                last_offsets.push(buffer.bytes() - slot.bytes);
+            }
+        }
+        let raw = lock(&context.layouts).take_set(&context.device, name, *set_layout, slots)?;
+        // From here on the inner value gives the set back on every path.
+        let group = GroupInner {
             context: context.clone(),
-            pool,
-            raw: vk::DescriptorSet::null(),
+            raw,
             layout: *set_layout,
             name: name.to_owned(),
             images,
+            last_offsets,
             _kept: kept,
         };
-        let layouts = [*set_layout];
-        let set_info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
-        // SAFETY: the pool has room for exactly this set.
-        let sets = unsafe { context.device.allocate_descriptor_sets(&set_info) }.map_err(failed)?;
-        group.raw = sets.first().copied().unwrap_or_default();
         context.set_name(group.raw, name);
         let writes: Vec<_> = slots
             .iter()
@@ -141,7 +142,7 @@ impl Gpu {
 fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, String> {
     use vk::DescriptorType as T;
     match (slot.descriptor, resource) {
-        (T::UNIFORM_BUFFER | T::STORAGE_BUFFER, Resource::Buffer(buffer)) => buffer_info(context, slot, buffer),
+        (T::UNIFORM_BUFFER_DYNAMIC | T::STORAGE_BUFFER, Resource::Buffer(buffer)) => buffer_info(context, slot, buffer),
         (T::SAMPLED_IMAGE, Resource::Texture(image)) if slot.is_cube != (image.0.layers == 6) => {
             let (asked, given) = if slot.is_cube { ("a cube", "flat") } else { ("a flat texture", "a cube") };
             Err(format!("the shader has {asked} and '{}' is {given}", image.name()))
@@ -169,21 +170,23 @@ fn info(context: &Context, slot: &Slot, resource: Resource<'_>) -> Result<Info, 
 
 fn buffer_info(context: &Context, slot: &Slot, buffer: &Buffer) -> Result<Info, String> {
     let info = &context.info;
-    let (usage, limit) = match slot.descriptor {
-        vk::DescriptorType::UNIFORM_BUFFER => (vk::BufferUsageFlags::UNIFORM_BUFFER, info.max_uniform_bytes),
-        _ => (vk::BufferUsageFlags::STORAGE_BUFFER, info.max_storage_bytes),
-    };
     let (name, bytes) = (buffer.name(), buffer.bytes());
+    let (usage, range, limit) = match slot.descriptor {
+        vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC => {
+            (vk::BufferUsageFlags::UNIFORM_BUFFER, slot.bytes, info.max_uniform_bytes)
+        }
+        _ => (vk::BufferUsageFlags::STORAGE_BUFFER, bytes, info.max_storage_bytes),
+    };
     if !buffer.0.usage.contains(usage) {
         return Err(format!("buffer '{name}' lacks {usage:?}"));
     }
     if bytes < slot.bytes {
         return Err(format!("buffer '{name}' gives {bytes} bytes and the block has {}", slot.bytes));
     }
-    if bytes > limit {
-        return Err(format!("{bytes} bytes of buffer '{name}' are beyond this device's {limit}"));
+    if range > limit {
+        return Err(format!("{range} bytes of buffer '{name}' are beyond this device's {limit}"));
     }
-    Ok(Info::Buffer([vk::DescriptorBufferInfo { buffer: buffer.0.raw, offset: 0, range: bytes }]))
+    Ok(Info::Buffer([vk::DescriptorBufferInfo { buffer: buffer.0.raw, offset: 0, range }]))
 }
 
 fn image_info(
@@ -200,7 +203,7 @@ fn image_info(
 
 impl Drop for GroupInner {
     fn drop(&mut self) {
-        // SAFETY: the last owner is gone, submissions in flight among them; the set goes with its pool.
-        unsafe { self.context.device.destroy_descriptor_pool(self.pool, None) };
+        // The last owner is gone, submissions in flight among them.
+        lock(&self.context.layouts).give_back(self.layout, self.raw);
     }
 }

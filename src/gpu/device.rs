@@ -5,12 +5,12 @@ use super::calls::Device;
 use super::choose::{self, Candidate, DeviceInfo};
 use super::encoder::Encoder;
 use super::error::GpuError;
-use super::host::HostDevice;
+use super::host::{FrameToken, HostCommands, HostDevice};
 use super::instance::{Instance, ValidationLog};
 use super::layout::Layouts;
 use super::memory::{Heap, MemoryReport};
 use super::query::RawRecording;
-use super::retire::RetireQueue;
+use super::retire::{Kept, RetireQueue, Spare};
 use super::sampler::Samplers;
 use ash::vk;
 use std::ffi::CString;
@@ -29,7 +29,8 @@ pub struct GpuOptions {
     pub pipeline_cache_dir: Option<PathBuf>,
 }
 
-/// A device: makes every other object. Cheap to clone; the last clone waits for the device to finish.
+/// A device: makes every other object. Cheap to clone; the last clone waits for the device to finish. It is `Send` and
+/// `Sync`: threads share it.
 #[derive(Clone)]
 pub struct Gpu(Arc<Owner>);
 
@@ -42,9 +43,10 @@ impl Drop for Owner {
         if let Err(error) = self.0.wait_idle() {
             tracing::error!("waiting for the device at its end: {error}");
         }
-        let in_flight = lock(&self.0.retired).take_passed(u64::MAX);
-        let on_host = lock(&self.0.retired).take_host();
-        drop((in_flight, on_host));
+        self.0.recycle(|retired| retired.take_passed(u64::MAX));
+        self.0.recycle(RetireQueue::take_host);
+        // What is spare holds nothing that needs the device.
+        *lock(&self.0.spare) = Spare::default();
         self.0.cache.save(&self.0.device);
     }
 }
@@ -63,6 +65,7 @@ pub(crate) struct Context {
     pub(crate) timeline: vk::Semaphore,
     pub(crate) queue: Mutex<Queue>,
     pub(crate) retired: Mutex<RetireQueue>,
+    pub(crate) spare: Mutex<Spare>,
     pub(crate) layouts: Mutex<Layouts>,
     pub(crate) samplers: Mutex<Samplers>,
     pub(crate) recordings: Mutex<Vec<RawRecording>>,
@@ -153,6 +156,7 @@ impl Gpu {
             timeline,
             queue: Mutex::new(Queue { raw: queue, last_submitted: 0 }),
             retired: Mutex::default(),
+            spare: Mutex::default(),
             layouts: Mutex::default(),
             samplers: Mutex::default(),
             recordings: Mutex::default(),
@@ -165,6 +169,11 @@ impl Gpu {
         };
         context.set_name(timeline, "timeline");
         Ok(Self(Arc::new(Owner(Arc::new(context)))))
+    }
+
+    /// A number that no other open device has.
+    pub fn id(&self) -> usize {
+        Arc::as_ptr(&self.0.0).addr()
     }
 
     /// The device, its abilities and limits.
@@ -202,13 +211,41 @@ impl Gpu {
         self.0.0.wait_idle()
     }
 
-    /// The host's word that every host command buffer recorded so far has finished: frees what only those used.
+    /// The host's word that the device is done with a frame: frees what only that frame used.
     ///
     /// # Safety
-    /// It is true.
-    pub unsafe fn host_idle(&self) {
-        let done = lock(&self.0.0.retired).take_host();
-        drop(done);
+    /// It is true: the frame's command buffers have finished, or were never submitted and never will be.
+    ///
+    /// # Errors
+    /// [`GpuError::Range`] for a token of another device.
+    pub unsafe fn frame_passed(&self, token: FrameToken) -> Result<(), GpuError> {
+        self.0.0.owns(&token)?;
+        self.0.0.recycle(|retired| retired.take_frame(token.frame));
+        Ok(())
+    }
+
+    /// The frame will have passed when the host's timeline is at `value`, which [`Self::timeline_passed`] says. A host
+    /// uses one timeline for all frames that it gives up like this.
+    ///
+    /// # Errors
+    /// [`GpuError::Range`] for a token of another device.
+    pub fn frame_on_timeline(&self, token: FrameToken, value: u64) -> Result<(), GpuError> {
+        self.0.0.owns(&token)?;
+        lock(&self.0.0.retired).on_timeline(token.frame, value);
+        Ok(())
+    }
+
+    /// The host's word that its timeline is at `value`: frees what only the frames up to there used.
+    ///
+    /// # Safety
+    /// It is true, and the frames' values were right.
+    pub unsafe fn timeline_passed(&self, value: u64) {
+        self.0.0.recycle(|retired| retired.take_timeline(value));
+    }
+
+    /// Frames of the host that have not passed yet, as far as it has said.
+    pub fn host_frames_in_flight(&self) -> usize {
+        lock(&self.0.0.retired).host_frames()
     }
 
     /// Starts recording. An image is recorded by one encoder at a time, until that is submitted or dropped; so whatever
@@ -221,13 +258,8 @@ impl Gpu {
     }
 
     /// Records into the host's command buffer; [`Encoder::finish_on_host`] ends it, the host submits.
-    ///
-    /// # Safety
-    /// `command_buffer` is recording, outside of a render pass, belongs to this device and to a family with graphics
-    /// and compute, and nobody else records into it meanwhile. It is submitted once, to the queue of this device,
-    /// before anything recorded later; after it has finished, [`Gpu::host_idle`] is called.
-    pub unsafe fn encoder_on_host(&self, name: &str, command_buffer: vk::CommandBuffer) -> Encoder {
-        Encoder::on_host(self, name, command_buffer)
+    pub fn encoder_on_host(&self, name: &str, commands: HostCommands) -> Encoder {
+        Encoder::on_host(self, name, commands.0)
     }
 
     pub(crate) fn context(&self) -> &Arc<Context> {
@@ -273,10 +305,27 @@ impl Context {
         // SAFETY: the semaphore lives as long as the context.
         let passed = unsafe { self.device.get_semaphore_counter_value(self.timeline) }
             .map_err(|result| GpuError::from_vk("reading", "timeline", result))?;
-        let done = lock(&self.retired).take_passed(passed);
-        // Dropped after the lock: freeing takes other locks.
-        drop(done);
+        self.recycle(|retired| retired.take_passed(passed));
         Ok(())
+    }
+
+    /// Lets go of what the queue says is no longer used.
+    fn recycle(&self, take: impl Fn(&mut RetireQueue) -> Option<Kept>) {
+        loop {
+            let taken = take(&mut lock(&self.retired));
+            let Some(mut kept) = taken else { return };
+            // Outside of the lock: freeing takes other locks.
+            kept.release();
+            lock(&self.spare).kept.push(kept);
+        }
+    }
+
+    fn owns(self: &Arc<Self>, token: &FrameToken) -> Result<(), GpuError> {
+        if token.device == Arc::as_ptr(self).addr() {
+            return Ok(());
+        }
+        let problem = "the token is of another device: give it to the one that the frame was recorded on".to_owned();
+        Err(GpuError::Range { name: "frame token".to_owned(), problem })
     }
 }
 

@@ -1,70 +1,22 @@
 //! Recording, submitting and waiting.
 
+use super::attachment::{HostPass, RenderPassDesc, color_attachment, depth_attachment, target_formats};
 use super::barrier::{self, ImageUse, PassKind, PassKinds};
 use super::buffer::Buffer;
 use super::device::{Gpu, lock};
 use super::error::GpuError;
 use super::format;
+use super::host::{FrameToken, HostRendering};
 use super::image::{Image, ImageInner};
 use super::pass::{ComputePass, RenderPass};
-use super::pipeline::TargetFormats;
 use super::query::{FrameTimes, PassRecord, Recording};
 use super::retire::Kept;
+use super::transient::TransientSlice;
 use ash::vk;
 use std::ffi::CString;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
-
-/// What a target holds when a pass starts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Load {
-    /// This value; depth takes the first component.
-    Clear([f32; 4]),
-    /// What it held.
-    Keep,
-    /// Anything: the pass writes all that is read later.
-    Discard,
-}
-
-/// A colour target of a pass.
-#[derive(Clone, Copy)]
-pub struct ColorTarget<'a> {
-    /// The image; level 0 is drawn.
-    pub image: &'a Image,
-    /// Contents at the start.
-    pub load: Load,
-    /// Keep the contents at the end.
-    pub store: bool,
-    /// Average of the samples goes here at the end: one sample, same format.
-    pub resolve: Option<&'a Image>,
-}
-
-/// The depth target of a pass.
-#[derive(Clone, Copy)]
-pub struct DepthTarget<'a> {
-    /// The image.
-    pub image: &'a Image,
-    /// Contents at the start.
-    pub load: Load,
-    /// Keep the contents at the end.
-    pub store: bool,
-}
-
-/// A pass that draws.
-#[derive(Clone, Copy)]
-pub struct RenderPassDesc<'a> {
-    /// Name: the label in debuggers and the row of the frame's times.
-    pub name: &'a str,
-    /// Area that is drawn, from the corner of the targets, texels.
-    pub size: [u32; 2],
-    /// Colour targets in the order of the fragment shader's locations.
-    pub color: &'a [ColorTarget<'a>],
-    /// Depth target.
-    pub depth: Option<DepthTarget<'a>>,
-    /// Images that shaders read and that were something else before (targets of earlier passes).
-    pub sampled: &'a [&'a Image],
-}
 
 /// A command buffer being recorded.
 pub struct Encoder {
@@ -97,6 +49,7 @@ impl Encoder {
     }
 
     fn start(gpu: &Gpu, name: &str, recording: Option<Recording>, command_buffer: vk::CommandBuffer) -> Self {
+        let (kept, claimed) = lock(&gpu.context().spare).take();
         let encoder = Self {
             gpu: gpu.clone(),
             name: name.to_owned(),
@@ -105,9 +58,9 @@ impl Encoder {
             command_buffer,
             passes: Vec::new(),
             kinds: PassKinds::default(),
-            kept: Kept::default(),
+            kept,
             number: gpu.context().encoders.fetch_add(1, Ordering::Relaxed) + 1,
-            claimed: Vec::new(),
+            claimed,
             problem: None,
             started: Instant::now(),
         };
@@ -147,11 +100,25 @@ impl Encoder {
         }
         // SAFETY: sizes, samples and formats of the targets were checked and they are in the layouts of their use.
         unsafe { self.gpu.context().device.cmd_begin_rendering(self.command_buffer, &info) };
-        let mut pass = RenderPass::new(self, formats, desc.size);
+        let mut pass = RenderPass::new(self, formats, [0; 2], desc.size, false);
         record(&mut pass);
         // SAFETY: begun above; passes do not nest because `record` has the only reference.
         unsafe { self.gpu.context().device.cmd_end_rendering(self.command_buffer) };
         self.end_pass(PassKind::Render);
+    }
+
+    /// Records into a pass of the host's: draws alone, on targets that the host has bound, in its command buffer. Images
+    /// that are read must have been brought into that use before the host's pass began.
+    pub fn host_pass(&mut self, desc: &HostPass<'_>, record: impl FnOnce(&mut RenderPass<'_>)) {
+        let HostRendering { command_buffer, formats } = desc.rendering;
+        let own = std::mem::replace(&mut self.command_buffer, command_buffer);
+        self.passes.push(PassRecord { name: desc.name.to_owned(), ..PassRecord::default() });
+        let is_labelled = self.begin_label(desc.name);
+        record(&mut RenderPass::new(self, formats, desc.origin, desc.size, desc.is_y_down));
+        if is_labelled {
+            self.end_label();
+        }
+        self.command_buffer = own;
     }
 
     /// Records a pass that computes. Images of bound groups come into the layouts that they need by themselves;
@@ -275,17 +242,21 @@ impl Encoder {
         })
     }
 
-    /// Ends recording into the host's command buffer, which the host ends and submits. Without times on the device.
-    ///
-    /// # Errors
-    /// The first error of recording. The command buffer is valid all the same; the failing draws are not in it.
-    pub fn finish_on_host(mut self) -> Result<FrameTimes, GpuError> {
-        let passes = std::mem::take(&mut self.passes).into_iter().map(PassRecord::without_times).collect();
-        let record_ms = self.started.elapsed().as_secs_f64() * 1e3;
-        match self.problem.take() {
-            Some(problem) => Err(problem),
-            None => Ok(FrameTimes { passes, gpu_ms: None, record_ms }),
-        }
+    /// Ends recording into the host's command buffers, which the host ends and submits. The token stands for what was
+    /// recorded, whole or not: after an error the command buffers are valid all the same, the failing draws are not in them.
+    pub fn finish_on_host(mut self) -> (FrameToken, Result<(), GpuError>) {
+        let token = FrameToken { frame: self.number, device: Arc::as_ptr(self.gpu.context()).addr() };
+        (token, self.problem.take().map_or(Ok(()), Err))
+    }
+
+    /// Takes the first problem of recording so far, so that it fails nothing else.
+    pub fn take_problem(&mut self) -> Option<GpuError> {
+        self.problem.take()
+    }
+
+    /// A number that no other encoder of the device has.
+    pub fn number(&self) -> u64 {
+        self.number
     }
 
     /// Keeps the first problem of recording for `submit`.
@@ -295,6 +266,11 @@ impl Encoder {
 
     pub(crate) fn keep<T: std::any::Any + Send + Sync>(&mut self, thing: &Arc<T>) {
         self.kept.keep(thing);
+    }
+
+    /// Keeps a slice until what is recorded has finished: groups keep buffers, and know nothing of the slices in them.
+    pub fn keep_slice(&mut self, slice: &TransientSlice) {
+        self.kept.keep(&slice.0);
     }
 
     /// Counts a draw or dispatch; vertices and triangles are those of one instance.
@@ -314,6 +290,13 @@ impl Encoder {
         }
     }
 
+    /// Makes what was written so far visible to draws in the host's own passes, in which no barrier can stand.
+    pub(crate) fn before_host_passes(&self) {
+        if let Some(dependency) = barrier::before_pass(self.kinds, PassKind::Render) {
+            self.barriers(&[dependency.memory_barrier()], &[]);
+        }
+    }
+
     /// The one place where a pass begins: label, barriers, then its time and counts. False where it cannot begin: then
     /// the submission fails, and nothing of the pass may be recorded.
     pub(crate) fn begin_pass(&mut self, name: &str, kind: PassKind, uses: &[(&Arc<ImageInner>, ImageUse)]) -> bool {
@@ -323,11 +306,7 @@ impl Encoder {
         }
         let index = self.passes.len();
         self.passes.push(PassRecord { name: name.to_owned(), ..PassRecord::default() });
-        if let (Some(debug), Ok(name)) = (&self.gpu.context().debug, CString::new(name)) {
-            let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
-            // SAFETY: the extension is enabled; `end_pass` ends the label.
-            unsafe { debug.cmd_begin_debug_utils_label(self.command_buffer, &label) };
-        }
+        self.begin_label(name);
         if let Some(dependency) = barrier::before_pass(self.kinds, kind) {
             self.barriers(&[dependency.memory_barrier()], &[]);
         }
@@ -354,11 +333,24 @@ impl Encoder {
             recording.end_pass(index, kind != PassKind::Copy);
         }
         self.fence_timestamp();
-        let name_is_valid = self.passes.last().is_some_and(|pass| !pass.name.contains('\0'));
-        if let Some(debug) = self.gpu.context().debug.as_ref().filter(|_| name_is_valid) {
-            // SAFETY: ends the label that `begin_pass` began.
-            unsafe { debug.cmd_end_debug_utils_label(self.command_buffer) };
+        if self.passes.last().is_some_and(|pass| !pass.name.contains('\0')) {
+            self.end_label();
         }
+    }
+
+    /// Whether a label began, which [`Self::end_label`] then ends.
+    fn begin_label(&self, name: &str) -> bool {
+        let (Some(debug), Ok(name)) = (&self.gpu.context().debug, CString::new(name)) else { return false };
+        let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+        // SAFETY: the extension is enabled; the pass ends the label.
+        unsafe { debug.cmd_begin_debug_utils_label(self.command_buffer, &label) };
+        true
+    }
+
+    fn end_label(&self) {
+        let Some(debug) = &self.gpu.context().debug else { return };
+        // SAFETY: ends the label that `begin_label` began.
+        unsafe { debug.cmd_end_debug_utils_label(self.command_buffer) };
     }
 
     /// Takes the images for this encoder until it is submitted or dropped, or says why that cannot be. What an encoder
@@ -442,7 +434,7 @@ impl Drop for Encoder {
     fn drop(&mut self) {
         if self.is_on_host {
             let kept = std::mem::take(&mut self.kept);
-            lock(&self.gpu.context().retired).recorded_on_host(kept);
+            lock(&self.gpu.context().retired).recorded_on_host(self.number, kept);
         } else {
             // Not submitted: the images are still what they were.
             for (image, before) in &self.claimed {
@@ -450,6 +442,7 @@ impl Drop for Encoder {
             }
         }
         self.release();
+        lock(&self.gpu.context().spare).claimed.push(std::mem::take(&mut self.claimed));
     }
 }
 
@@ -472,87 +465,6 @@ impl Submission {
         self.gpu.context().wait(&self.name, self.value, Some(timeout_ms))?;
         Ok(self.recording.times(&self.passes, self.record_ms))
     }
-}
-
-/// The formats of a pass's targets, or what is wrong with them.
-fn target_formats(desc: &RenderPassDesc<'_>) -> Result<TargetFormats, String> {
-    let [width, height] = desc.size;
-    let attachments = desc.color.iter().map(|target| target.image);
-    let depth = desc.depth.map(|target| target.image);
-    let resolves = desc.color.iter().filter_map(|target| target.resolve);
-    for image in attachments.clone().chain(depth).chain(resolves) {
-        let [w, h] = image.size();
-        if width == 0 || height == 0 || width > w || height > h {
-            return Err(format!("{width}x{height} does not fit in target '{}' of {w}x{h}", image.name()));
-        }
-    }
-    let Some(samples) = attachments.clone().chain(depth).map(Image::samples).next() else {
-        return Err("a pass has at least one target".to_owned());
-    };
-    for image in attachments.clone().chain(depth) {
-        if image.samples() != samples {
-            return Err(format!("target '{}' has {} samples, the first {samples}", image.name(), image.samples()));
-        }
-    }
-    for image in attachments.clone() {
-        if !image.0.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT) {
-            return Err(format!("target '{}' lacks COLOR_ATTACHMENT", image.name()));
-        }
-    }
-    if let Some(image) = depth.filter(|image| !image.0.usage.contains(vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT)) {
-        return Err(format!("target '{}' lacks DEPTH_STENCIL_ATTACHMENT", image.name()));
-    }
-    for target in desc.color {
-        let Some(resolve) = target.resolve else { continue };
-        let is_target = resolve.0.usage.contains(vk::ImageUsageFlags::COLOR_ATTACHMENT);
-        if !is_target || samples == 1 || resolve.samples() != 1 || resolve.format() != target.image.format() {
-            let (from, to) = (target.image.name(), resolve.name());
-            return Err(format!(
-                "'{to}' cannot take the resolve of '{from}': one sample, same format, COLOR_ATTACHMENT"
-            ));
-        }
-    }
-    Ok(TargetFormats { color: attachments.map(Image::format).collect(), depth: depth.map(Image::format), samples })
-}
-
-fn load_op(load: Load) -> vk::AttachmentLoadOp {
-    match load {
-        Load::Clear(_) => vk::AttachmentLoadOp::CLEAR,
-        Load::Keep => vk::AttachmentLoadOp::LOAD,
-        Load::Discard => vk::AttachmentLoadOp::DONT_CARE,
-    }
-}
-
-fn store_op(store: bool) -> vk::AttachmentStoreOp {
-    if store { vk::AttachmentStoreOp::STORE } else { vk::AttachmentStoreOp::DONT_CARE }
-}
-
-fn color_attachment<'a>(target: &ColorTarget<'_>) -> vk::RenderingAttachmentInfo<'a> {
-    let float32 = if let Load::Clear(color) = target.load { color } else { [0.0; 4] };
-    let layout = barrier::layout(ImageUse::ColorTarget);
-    let info = vk::RenderingAttachmentInfo::default()
-        .image_view(target.image.0.level_0_view)
-        .image_layout(layout)
-        .load_op(load_op(target.load))
-        .store_op(store_op(target.store))
-        .clear_value(vk::ClearValue { color: vk::ClearColorValue { float32 } });
-    match target.resolve {
-        None => info,
-        Some(resolve) => info
-            .resolve_mode(vk::ResolveModeFlags::AVERAGE)
-            .resolve_image_view(resolve.0.level_0_view)
-            .resolve_image_layout(layout),
-    }
-}
-
-fn depth_attachment<'a>(target: DepthTarget<'_>) -> vk::RenderingAttachmentInfo<'a> {
-    let depth = if let Load::Clear([depth, ..]) = target.load { depth } else { 0.0 };
-    vk::RenderingAttachmentInfo::default()
-        .image_view(target.image.0.level_0_view)
-        .image_layout(barrier::layout(ImageUse::DepthTarget))
-        .load_op(load_op(target.load))
-        .store_op(store_op(target.store))
-        .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } })
 }
 
 fn copy_region(image: &ImageInner, buffer_offset: u64, mip_level: u32) -> vk::BufferImageCopy {

@@ -5,6 +5,7 @@ use ash::vk;
 
 /// Error of the device layer: what, on which named object, and what to do.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum GpuError {
     /// The Vulkan loader library is absent.
     #[error("no Vulkan loader ({source}): install it (Debian: libvulkan1 and mesa-vulkan-drivers)")]
@@ -67,6 +68,15 @@ pub enum GpuError {
         pipeline: String,
         /// What does not fit, with set, binding and names.
         problem: String,
+    },
+    /// The crate was built without a shader compiler.
+    #[error(
+        "pipeline '{pipeline}': vair was built without shaders: build it where glslangValidator is installed (Debian: \
+         glslang-tools) and neither VAIR_NO_SHADERS nor DOCS_RS is set"
+    )]
+    NoShaders {
+        /// Pipeline.
+        pipeline: String,
     },
     /// A size that the device cannot hold.
     #[error("'{name}' of {}x{} texels: each side must be 1 to {limit} on this device", .size[0], .size[1])]

@@ -4,6 +4,7 @@ use super::barrier::ImageUse;
 use super::device::{Context, Gpu, lock};
 use super::error::GpuError;
 use super::format;
+use super::host::HostImage;
 use super::memory::{Block, Memory, MemoryUse};
 use ash::vk;
 use std::sync::atomic::AtomicU64;
@@ -169,38 +170,40 @@ fn check_support(context: &Context, desc: &ImageDesc<'_>, usage: vk::ImageUsageF
     Ok(())
 }
 
+impl Gpu {
+    /// Whether images of that format can be used like that, tiled as the device likes.
+    pub fn can_be_target(&self, format: vk::Format, features: vk::FormatFeatureFlags) -> bool {
+        let context = self.context();
+        // SAFETY: the physical device belongs to the instance; any format may be asked about.
+        let known = unsafe { context.instance.get_physical_device_format_properties(context.physical, format) };
+        known.optimal_tiling_features.contains(features)
+    }
+}
+
 impl Image {
-    /// Wraps an image of the host, for example of a swapchain, as a target or source.
+    /// Wraps an image of the host, for example of a swapchain, as a target, source or texture.
     ///
     /// # Safety
-    /// `image` and `view` (of level 0) belong to this device, have one sample, this format and size and the uses that
-    /// they are put to, and live until the work recorded with this has finished. The image is in `initial_layout` when
-    /// the first such work starts.
-    pub unsafe fn from_host(
-        gpu: &Gpu,
-        name: &str,
-        image: vk::Image,
-        view: vk::ImageView,
-        format: vk::Format,
-        size: [u32; 2],
-        initial_layout: vk::ImageLayout,
-    ) -> Self {
-        let last_use = match initial_layout {
+    /// Image and view belong to this device, are as described, have the uses that they are put to, and live until the work
+    /// recorded with this has finished. The image is in the layout named when the first such work starts.
+    pub unsafe fn from_host(gpu: &Gpu, host: &HostImage<'_>) -> Self {
+        let last_use = match host.layout {
             vk::ImageLayout::UNDEFINED => ImageUse::Undefined,
+            vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL => ImageUse::Sampled,
             layout => ImageUse::Host(layout),
         };
         Self(Arc::new(ImageInner {
             context: gpu.context().clone(),
-            raw: image,
-            view,
-            level_0_view: view,
-            name: name.to_owned(),
-            size,
-            format,
-            mip_levels: 1,
-            samples: 1,
+            raw: host.image,
+            view: host.view,
+            level_0_view: host.view,
+            name: host.name.to_owned(),
+            size: host.size,
+            format: host.format,
+            mip_levels: host.mip_levels,
+            samples: host.samples,
             usage: vk::ImageUsageFlags::from_raw(u32::MAX),
-            layers: 1,
+            layers: if host.is_cube { 6 } else { 1 },
             last_use: Mutex::new(last_use),
             recorder: AtomicU64::new(0),
             block: Mutex::new(None),
@@ -218,6 +221,11 @@ impl Image {
         self.0.format
     }
 
+    /// It has six faces.
+    pub fn is_cube(&self) -> bool {
+        self.0.layers == 6
+    }
+
     /// Number of mip levels.
     pub fn mip_levels(&self) -> u32 {
         self.0.mip_levels
@@ -226,6 +234,11 @@ impl Image {
     /// Samples per texel.
     pub fn samples(&self) -> u32 {
         self.0.samples
+    }
+
+    /// A number that no other live image has.
+    pub fn place(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
     }
 
     /// Name given at creation.

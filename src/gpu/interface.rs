@@ -44,7 +44,8 @@ pub(crate) fn stage_flags(stage: Stage) -> vk::ShaderStageFlags {
 
 fn slot(binding: &Binding) -> Slot {
     let (descriptor, bytes) = match binding.kind {
-        BindingKind::Uniform { bytes } => (vk::DescriptorType::UNIFORM_BUFFER, u64::from(bytes)),
+        // Dynamic: a block is a slice of a larger buffer, so that a group stays while its values change.
+        BindingKind::Uniform { bytes } => (vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, u64::from(bytes)),
         BindingKind::Storage { .. } => (vk::DescriptorType::STORAGE_BUFFER, 0),
         BindingKind::Texture | BindingKind::Cube => (vk::DescriptorType::SAMPLED_IMAGE, 0),
         BindingKind::Sampler => (vk::DescriptorType::SAMPLER, 0),
@@ -150,12 +151,13 @@ pub(crate) fn specialize(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shader::SpecConstant;
+    use crate::shader::{SpecConstant, Spirv};
 
     static VERTEX: Shader = Shader {
         name: "a.vert",
         stage: Stage::Vertex,
-        spirv: &[],
+        spirv: Spirv::Plain(&[]),
+        spirv_hash: 0,
         bindings: &[Binding { set: 0, binding: 0, name: "frame", kind: BindingKind::Uniform { bytes: 64 } }],
         push_constant_bytes: 16,
         constants: &[SpecConstant { name: "layers", id: 3, default_bits: 1 }],

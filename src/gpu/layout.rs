@@ -1,4 +1,5 @@
-//! Descriptor set layouts and pipeline layouts, each kind created once per device.
+//! Descriptor set layouts and pipeline layouts, each kind created once per device, and the descriptor sets of each layout,
+//! which are recycled.
 
 use super::calls::Device;
 use super::error::GpuError;
@@ -10,11 +11,17 @@ use std::collections::HashMap;
 type SetKey = Vec<(u32, &'static str, i32)>;
 type LayoutKey = (Vec<vk::DescriptorSetLayout>, u32, u32);
 
+/// Sets of a pool.
+const SETS_PER_POOL: u32 = 16;
+
 /// All layouts of a device; few, so they live as long as it does.
 #[derive(Default)]
 pub(crate) struct Layouts {
     sets: HashMap<SetKey, vk::DescriptorSetLayout>,
     pipelines: HashMap<LayoutKey, vk::PipelineLayout>,
+    /// Sets that nobody uses, by layout.
+    free: HashMap<vk::DescriptorSetLayout, Vec<vk::DescriptorSet>>,
+    pools: Vec<vk::DescriptorPool>,
 }
 
 /// Every binding is visible to every stage, so that a group fits all pipelines that name the same things.
@@ -53,6 +60,37 @@ impl Layouts {
         Ok((sets, layout))
     }
 
+    /// A set of a layout with these slots: one that was given back, or of a new pool. Its contents are anything.
+    pub(crate) fn take_set(
+        &mut self,
+        device: &Device,
+        name: &str,
+        layout: vk::DescriptorSetLayout,
+        slots: &[Slot],
+    ) -> Result<vk::DescriptorSet, GpuError> {
+        let free = self.free.entry(layout).or_default();
+        if let Some(set) = free.pop() {
+            return Ok(set);
+        }
+        let failed = |result| GpuError::from_vk("creating bind group", name, result);
+        let size = |slot: &Slot| vk::DescriptorPoolSize::default().ty(slot.descriptor).descriptor_count(SETS_PER_POOL);
+        let sizes: Vec<_> = slots.iter().map(size).collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(SETS_PER_POOL).pool_sizes(&sizes);
+        // SAFETY: sets and counts of at least 1 are asked for.
+        let pool = unsafe { device.create_descriptor_pool(&info, None) }.map_err(failed)?;
+        self.pools.push(pool);
+        let layouts = [layout; SETS_PER_POOL as usize];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
+        // SAFETY: the pool has room for exactly these sets.
+        free.extend(unsafe { device.allocate_descriptor_sets(&info) }.map_err(failed)?);
+        free.pop().ok_or_else(|| failed(vk::Result::ERROR_OUT_OF_POOL_MEMORY))
+    }
+
+    /// The set is no longer used, by no submission either.
+    pub(crate) fn give_back(&mut self, layout: vk::DescriptorSetLayout, set: vk::DescriptorSet) {
+        self.free.entry(layout).or_default().push(set);
+    }
+
     fn set(&mut self, device: &Device, name: &str, slots: &[Slot]) -> Result<vk::DescriptorSetLayout, GpuError> {
         let key: SetKey = slots.iter().map(|slot| (slot.binding, slot.name, slot.descriptor.as_raw())).collect();
         if let Some(layout) = self.sets.get(&key) {
@@ -77,6 +115,10 @@ impl Layouts {
     }
 
     pub(crate) fn destroy(&mut self, device: &Device) {
+        for pool in self.pools.drain(..) {
+            // SAFETY: bind groups hold the context, so none uses a set any more; sets go with their pool.
+            unsafe { device.destroy_descriptor_pool(pool, None) };
+        }
         for (_, layout) in self.pipelines.drain() {
             // SAFETY: pipelines and encoders hold the context, so none refers to it any more.
             unsafe { device.destroy_pipeline_layout(layout, None) };

@@ -3,11 +3,13 @@
 //! State is bound lazily: pipeline, groups and push constants may come in any order before a draw, and stay bound when
 //! the pipeline changes to one with the same sets.
 
+use super::barrier::ImageUse;
 use super::buffer::Buffer;
 use super::descriptor::{BindGroup, GroupInner};
 use super::device::lock;
 use super::encoder::Encoder;
 use super::error::GpuError;
+use super::image::ImageInner;
 use super::interface::SET_COUNT;
 use super::pipeline::{Pipeline, PipelineInner, TargetFormats, vertex_bytes};
 use ash::vk;
@@ -16,11 +18,18 @@ use std::sync::Arc;
 /// Tail padding that a push-constant block may have beyond the values given, bytes.
 const PUSH_PADDING: usize = 15;
 
+/// Uniform blocks of one set, at most; four sets of them are fewer than every device has ("Vulkan 1.3", table "Required
+/// Limits", maxDescriptorSetUniformBuffersDynamic: 8).
+pub const MAX_OFFSETS: usize = 2;
+
+/// A group, and where each of its uniform blocks starts.
+type BoundGroup = (Arc<GroupInner>, [u32; MAX_OFFSETS]);
+
 /// What is bound, and what of it the command buffer does not know yet.
 #[derive(Default)]
 struct Bound {
     pipeline: Option<Arc<PipelineInner>>,
-    groups: [Option<Arc<GroupInner>>; SET_COUNT],
+    groups: [Option<BoundGroup>; SET_COUNT],
     is_group_stale: [bool; SET_COUNT],
     push: Vec<u8>,
     is_push_stale: bool,
@@ -47,17 +56,32 @@ impl Bound {
         true
     }
 
-    fn bind(&mut self, encoder: &mut Encoder, set: u32, group: &BindGroup) {
+    fn bind(&mut self, encoder: &mut Encoder, set: u32, group: &BindGroup, offsets: &[u64]) {
+        let failed = |problem: String| GpuError::Interface { pipeline: group.name().to_owned(), problem };
+        let blocks = &group.0.last_offsets;
+        let alignment = encoder.gpu().info().uniform_alignment;
+        if offsets.len() > MAX_OFFSETS || blocks.len() > MAX_OFFSETS || offsets.len() > blocks.len() {
+            let problem = format!("{} offsets given for {} uniform blocks", offsets.len(), blocks.len());
+            return encoder.fail(failed(problem));
+        }
+        let is_wrong = |(offset, last): (&u64, &u64)| offset > last || !offset.is_multiple_of(alignment);
+        if offsets.iter().zip(blocks).any(is_wrong) {
+            let problem =
+                format!("offsets {offsets:?}: multiples of {alignment} up to {blocks:?} are within the buffers");
+            return encoder.fail(failed(problem));
+        }
+        let mut starts = [0; MAX_OFFSETS];
+        for (start, offset) in starts.iter_mut().zip(offsets) {
+            *start = *offset as u32;
+        }
         let index = set as usize;
-        match (self.groups.get_mut(index), self.is_group_stale.get_mut(index)) {
-            (Some(bound), Some(is_stale)) => {
-                *bound = Some(group.0.clone());
-                *is_stale = true;
-            }
-            _ => {
-                let problem = format!("set {set} does not exist, sets are 0 to {}", SET_COUNT - 1);
-                encoder.fail(GpuError::Interface { pipeline: group.name().to_owned(), problem });
-            }
+        let (Some(bound), Some(is_stale)) = (self.groups.get_mut(index), self.is_group_stale.get_mut(index)) else {
+            return encoder.fail(failed(format!("set {set} does not exist, sets are 0 to {}", SET_COUNT - 1)));
+        };
+        let is_same = |(bound, at): &BoundGroup| Arc::ptr_eq(bound, &group.0) && *at == starts;
+        if !bound.as_ref().is_some_and(is_same) {
+            *bound = Some((group.0.clone(), starts));
+            *is_stale = true;
         }
     }
 
@@ -73,33 +97,43 @@ impl Bound {
             let problem = "a draw or dispatch without a pipeline".to_owned();
             return Err(GpuError::Interface { pipeline: "none".to_owned(), problem });
         };
-        let mut groups = Vec::new();
         for (set, slots) in pipeline.interface.sets.iter().enumerate() {
             if slots.is_empty() {
                 continue;
             }
-            let Some(group) = &self.groups[set] else {
+            let Some((group, _)) = &self.groups[set] else {
                 return Err(problem(&pipeline, format!("set {set} is not bound")));
             };
             if group.layout != pipeline.set_layouts[set] {
                 return Err(problem(&pipeline, format!("group '{}' is not one for set {set}", group.name)));
             }
-            groups.push((set, group));
         }
+        let is_used = |set: usize| !pipeline.interface.sets[set].is_empty();
         // A dispatch may find an image as the one before left it, so all groups count; during a render pass none moves.
-        let is_compute = pipeline.bind_point == vk::PipelineBindPoint::COMPUTE;
-        let with_images = groups.iter().filter(|(set, _)| is_compute || self.is_group_stale[*set]);
-        let with_images: Vec<_> = with_images.map(|(_, group)| group.as_ref()).collect();
-        prepare_images(encoder, &pipeline, &with_images)?;
-        for (set, group) in groups {
-            if !self.is_group_stale[set] {
-                continue;
+        if pipeline.bind_point == vk::PipelineBindPoint::COMPUTE {
+            let groups = self.groups.iter().enumerate().filter(|(set, _)| is_used(*set));
+            let images = groups.flat_map(|(_, group)| group).flat_map(|(group, _)| &group.images);
+            let uses: Vec<_> = images.map(|(image, image_use)| (image, *image_use)).collect();
+            encoder.transition_all(&uses)?;
+        } else {
+            let is_stale = |set: usize| is_used(set) && self.is_group_stale[set];
+            for (_, bound) in self.groups.iter().enumerate().filter(|(set, _)| is_stale(*set)) {
+                for (image, image_use) in bound.iter().flat_map(|(group, _)| &group.images) {
+                    check_image(encoder, &pipeline, image, *image_use)?;
+                }
             }
+        }
+        for set in (0..SET_COUNT).filter(|set| is_used(*set)) {
+            let Some((group, offsets)) = self.groups[set].as_ref().filter(|_| self.is_group_stale[set]) else {
+                continue;
+            };
             encoder.keep(group);
             let device = &encoder.gpu().context().device;
             let (point, layout, sets) = (pipeline.bind_point, pipeline.layout, [group.raw]);
-            // SAFETY: the set has the layout that the pipeline has at this number, and is kept alive.
-            unsafe { device.cmd_bind_descriptor_sets(encoder.command_buffer, point, layout, set as u32, &sets, &[]) };
+            let (commands, offsets) = (encoder.command_buffer, &offsets[..group.last_offsets.len()]);
+            // SAFETY: the set has the layout that the pipeline has at this number, and is kept alive; the offsets were
+            // checked when it was bound.
+            unsafe { device.cmd_bind_descriptor_sets(commands, point, layout, set as u32, &sets, offsets) };
             self.is_group_stale[set] = false;
         }
         let push_bytes = pipeline.interface.push_bytes as usize;
@@ -119,19 +153,17 @@ impl Bound {
 }
 
 /// Images come into their layouts in a compute pass; in a render pass it is too late, so they must be in it already.
-fn prepare_images(encoder: &mut Encoder, pipeline: &PipelineInner, groups: &[&GroupInner]) -> Result<(), GpuError> {
-    let images = groups.iter().flat_map(|group| &group.images);
-    let uses: Vec<_> = images.map(|(image, image_use)| (image, *image_use)).collect();
-    if pipeline.bind_point == vk::PipelineBindPoint::COMPUTE {
-        return encoder.transition_all(&uses);
-    }
-    encoder.claim(&uses)?;
-    for (image, expected) in uses {
-        let actual = *lock(&image.last_use);
-        if actual != expected {
-            let what = format!("image '{}' is in use as {actual:?}", image.name);
-            return Err(problem(pipeline, format!("{what}, not {expected:?}: list it in the pass's `sampled`")));
-        }
+fn check_image(
+    encoder: &mut Encoder,
+    pipeline: &PipelineInner,
+    image: &Arc<ImageInner>,
+    expected: ImageUse,
+) -> Result<(), GpuError> {
+    encoder.claim(&[(image, expected)])?;
+    let actual = *lock(&image.last_use);
+    if actual != expected {
+        let what = format!("image '{}' is in use as {actual:?}", image.name);
+        return Err(problem(pipeline, format!("{what}, not {expected:?}: list it in the pass's `sampled`")));
     }
     Ok(())
 }
@@ -166,6 +198,7 @@ pub struct RenderPass<'e> {
     targets: TargetFormats,
     /// Texels of the pass.
     size: [u32; 2],
+    is_y_down: bool,
     /// By location.
     streams: [Option<Stream>; STREAM_COUNT],
     /// Indices in the bound range.
@@ -173,10 +206,16 @@ pub struct RenderPass<'e> {
 }
 
 impl<'e> RenderPass<'e> {
-    pub(crate) fn new(encoder: &'e mut Encoder, targets: TargetFormats, size: [u32; 2]) -> Self {
+    pub(crate) fn new(
+        encoder: &'e mut Encoder,
+        targets: TargetFormats,
+        origin: [u32; 2],
+        size: [u32; 2],
+        is_y_down: bool,
+    ) -> Self {
         let streams = [None; STREAM_COUNT];
-        let mut pass = Self { encoder, bound: Bound::default(), targets, size, streams, index_count: None };
-        pass.draw_to([0; 2], size);
+        let mut pass = Self { encoder, bound: Bound::default(), targets, size, is_y_down, streams, index_count: None };
+        pass.draw_to(origin, size);
         pass.cull(vk::CullModeFlags::NONE, vk::FrontFace::COUNTER_CLOCKWISE);
         pass
     }
@@ -199,11 +238,13 @@ impl<'e> RenderPass<'e> {
         let [left, top] = origin;
         let [width, height] = size;
         // A negative height turns clip space Y up.
+        let (y, signed_height) =
+            if self.is_y_down { (top as f32, height as f32) } else { ((top + height) as f32, -(height as f32)) };
         let viewport = vk::Viewport {
             x: left as f32,
-            y: (top + height) as f32,
+            y,
             width: width as f32,
-            height: -(height as f32),
+            height: signed_height,
             min_depth: 0.0,
             max_depth: 1.0,
         };
@@ -228,9 +269,15 @@ impl<'e> RenderPass<'e> {
         self.streams.iter_mut().flatten().for_each(|stream| stream.is_stale = true);
     }
 
-    /// Binds a group to a set.
+    /// Binds a group to a set, its uniform blocks at the start of their buffers.
     pub fn bind(&mut self, set: u32, group: &BindGroup) {
-        self.bound.bind(self.encoder, set, group);
+        self.bind_at(set, group, &[]);
+    }
+
+    /// Binds a group to a set; each of its uniform blocks, by binding, starts at an offset into its buffer, bytes. Those
+    /// without one start at 0.
+    pub fn bind_at(&mut self, set: u32, group: &BindGroup, offsets: &[u64]) {
+        self.bound.bind(self.encoder, set, group, offsets);
     }
 
     /// Binds the stream of the vertex input at `location`; `stride_bytes` 0 gives every vertex the first value. Offset
@@ -360,9 +407,9 @@ impl<'e> ComputePass<'e> {
         self.bound.pipeline(self.encoder, pipeline, vk::PipelineBindPoint::COMPUTE);
     }
 
-    /// Binds a group to a set.
+    /// Binds a group to a set, its uniform blocks at the start of their buffers.
     pub fn bind(&mut self, set: u32, group: &BindGroup) {
-        self.bound.bind(self.encoder, set, group);
+        self.bound.bind(self.encoder, set, group, &[]);
     }
 
     /// Sets the push constants; for the dispatches of every pipeline until the next call.

@@ -115,12 +115,30 @@ pub(crate) struct PipelineInner {
     creation_ms: f64,
 }
 
+/// Colour targets of one pass, at most; every device has so many ("Vulkan 1.3", table "Required Limits",
+/// maxColorAttachments).
+pub const MAX_COLOR_TARGETS: usize = 4;
+
 /// What a render pass and a pipeline must agree on.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct TargetFormats {
-    pub(crate) color: Vec<vk::Format>,
-    pub(crate) depth: Option<vk::Format>,
-    pub(crate) samples: u32,
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct TargetFormats {
+    /// Formats of the colour targets, in order; `UNDEFINED` beyond the last.
+    pub color: [vk::Format; MAX_COLOR_TARGETS],
+    /// Format of the depth target.
+    pub depth: Option<vk::Format>,
+    /// Samples a texel.
+    pub samples: u32,
+}
+
+impl TargetFormats {
+    /// Of these colour targets, in order, and depth. More than [`MAX_COLOR_TARGETS`] fit nothing.
+    pub fn new(color: impl IntoIterator<Item = vk::Format>, depth: Option<vk::Format>, samples: u32) -> Self {
+        let mut formats = Self { color: Default::default(), depth, samples };
+        for (slot, format) in formats.color.iter_mut().zip(color) {
+            *slot = format;
+        }
+        formats
+    }
 }
 
 impl Pipeline {
@@ -158,8 +176,7 @@ struct StageParts<'a> {
 
 impl<'a> StageParts<'a> {
     fn new(context: &'a Context, shader: &'static Shader, constants: &[(u32, u32)]) -> Result<Self, GpuError> {
-        let words: Vec<u32> = bytemuck::pod_collect_to_vec(shader.spirv);
-        let info = vk::ShaderModuleCreateInfo::default().code(&words);
+        let info = vk::ShaderModuleCreateInfo::default().code(shader.spirv());
         // SAFETY: the shader table holds what the SPIR-V compiler wrote for this API version.
         let module = unsafe { context.device.create_shader_module(&info, None) }
             .map_err(|result| GpuError::from_vk("creating shader", shader.name, result))?;
@@ -197,6 +214,9 @@ impl Drop for StageParts<'_> {
 }
 
 fn expect_stage(pipeline: &str, shader: &Shader, stage: Stage) -> Result<(), GpuError> {
+    if shader.spirv().is_empty() {
+        return Err(GpuError::NoShaders { pipeline: pipeline.to_owned() });
+    }
     if shader.stage == stage {
         return Ok(());
     }
@@ -360,13 +380,14 @@ impl Gpu {
         // Without vertex bindings no stride is ever set, so it must not be dynamic.
         let state_count = if bindings.is_empty() { states.len() - 1 } else { states.len() };
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states[..state_count]);
-        let targets = TargetFormats {
-            color: desc.color.iter().map(|color| color.format).collect(),
-            depth: desc.depth.map(|depth| depth.format),
-            samples: desc.samples,
-        };
+        if desc.color.len() > MAX_COLOR_TARGETS {
+            let problem = format!("{} colour targets (at most {MAX_COLOR_TARGETS})", desc.color.len());
+            return Err(GpuError::Unsupported { name: desc.name.to_owned(), problem });
+        }
+        let colors = desc.color.iter().map(|color| color.format);
+        let targets = TargetFormats::new(colors, desc.depth.map(|depth| depth.format), desc.samples);
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
-            .color_attachment_formats(&targets.color)
+            .color_attachment_formats(&targets.color[..desc.color.len()])
             .depth_attachment_format(targets.depth.unwrap_or_default());
         let info = vk::GraphicsPipelineCreateInfo::default()
             .stages(&stages)
@@ -458,13 +479,23 @@ fn first(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shader::table;
+    use crate::shader::{Defines, ShaderFile, ShaderKey, Spirv};
 
     #[test]
     fn more_textures_than_a_stage_reads_are_refused() {
-        let layered = table::ALL.iter().find(|shader| shader.name == "layered.frag+UV+TANGENT+MAPS+SHEEN").unwrap();
+        let defines = Defines::UV | Defines::TANGENT | Defines::MAPS | Defines::SHEEN;
+        let layered = ShaderKey::new(ShaderFile::LayeredFrag, defines).shader();
         let problem = too_many_textures(layered, 16).unwrap();
         assert!(problem.ends_with("textures in one shader (reads at most 16)"), "{problem}");
         assert_eq!(too_many_textures(layered, 32), None);
+    }
+
+    #[test]
+    fn a_crate_without_shaders_says_so() {
+        let built = ShaderKey::new(ShaderFile::ToneMappingVert, Defines::NONE).shader();
+        assert!(expect_stage("tonemap", built, Stage::Vertex).is_ok());
+        let empty = Shader { spirv: Spirv::Plain(&[]), ..*built };
+        let error = expect_stage("tonemap", &empty, Stage::Vertex).unwrap_err().to_string();
+        assert!(error.starts_with("pipeline 'tonemap': vair was built without shaders: build it where"), "{error}");
     }
 }

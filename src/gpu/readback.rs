@@ -1,5 +1,6 @@
 //! Images back to the host.
 
+use super::buffer::Buffer;
 use super::device::Gpu;
 use super::error::GpuError;
 use super::format::format_bytes;
@@ -23,8 +24,16 @@ impl Gpu {
             problem: format!("reading back {:?}", image.format()),
         })? * u64::from(image.0.layers);
         let buffer = self.buffer("readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Memory::Readback)?;
+        self.read_image_through(image, &buffer)
+    }
+
+    /// The same through a [`Memory::Readback`] buffer that is at hand, of exactly the image's bytes.
+    ///
+    /// # Errors
+    /// Those of [`Self::read_image`].
+    pub fn read_image_through(&self, image: &Image, buffer: &Buffer) -> Result<Vec<u8>, GpuError> {
         let mut encoder = self.encoder("readback")?;
-        encoder.copy_image_to_buffer(image, &buffer);
+        encoder.copy_image_to_buffer(image, buffer);
         encoder.submit()?.wait(TIMEOUT_MS)?;
         buffer.read()
     }

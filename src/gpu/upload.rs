@@ -98,6 +98,18 @@ impl Upload {
         self.problem.take().map_or(Ok(()), Err)
     }
 
+    /// Copies everything at the start of what `encoder` records from now on, without a wait: staging memory lives until
+    /// that has finished. Only what waits beyond 128 MiB has been copied by a submission of its own.
+    ///
+    /// # Errors
+    /// Those of [`Self::finish`]. Then what was to be copied is not to be used.
+    pub fn record_into(mut self, encoder: &mut Encoder) -> Result<(), GpuError> {
+        if self.problem.is_none() && !self.copies.is_empty() {
+            self.record_all(encoder)?;
+        }
+        self.problem.take().map_or(Ok(()), Err)
+    }
+
     fn fail(&mut self, problem: GpuError) {
         self.problem.get_or_insert(problem);
     }
@@ -143,6 +155,13 @@ impl Upload {
         if self.copies.is_empty() {
             return Ok(());
         }
+        let mut encoder = self.gpu.encoder("upload")?;
+        self.record_all(&mut encoder)?;
+        encoder.submit()?.wait(TIMEOUT_MS)?;
+        Ok(())
+    }
+
+    fn record_all(&self, encoder: &mut Encoder) -> Result<(), GpuError> {
         let mut images: Vec<&Arc<ImageInner>> = Vec::new();
         for copy in &self.copies {
             if let Copy::Image { target, .. } = copy
@@ -152,15 +171,13 @@ impl Upload {
             }
         }
         let with = |image_use| images.iter().map(|image| (*image, image_use)).collect::<Vec<_>>();
-        let mut encoder = self.gpu.encoder("upload")?;
         if encoder.begin_pass("upload", PassKind::Copy, &with(ImageUse::CopyTarget)) {
             for copy in &self.copies {
-                self.record(&mut encoder, copy);
+                self.record(encoder, copy);
             }
             encoder.end_pass(PassKind::Copy);
             encoder.transition_all(&with(ImageUse::Sampled))?;
         }
-        encoder.submit()?.wait(TIMEOUT_MS)?;
         Ok(())
     }
 

@@ -17,7 +17,7 @@ crate::parameters! {
         sheen_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is how densely fibres stand, the structure of the fuzz; times sheen_color.";
         sheen_roughness: f32 as Number = 0.5, UNIT, "", "How wide the glow of the standing fibres is: 0 a thin rim, 1 all over.";
         sheen_roughness_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is a factor on sheen_roughness.";
-        env_rotation: f32 as Number = 0.0, (-36e3, 36e3), "deg", "Turns the surroundings that this cloth sees, counter-clockwise seen from above.";
+        env_rotation: f32 as Number = 0.0, (-36e3, 36e3), "deg", "Turns the environment that this cloth sees, counter-clockwise seen from above.";
         classic: bool as Switch = false, UNBOUNDED, "", "The formula of older engines, for looks that were tuned to it: it gains light and knows no other sheen.";
     }
 }

@@ -4,6 +4,7 @@ use super::parameter::ParameterError;
 
 /// Why a look or the look keys of a file could not be used; one line that says where.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MaterialError {
     /// Not TOML.
     #[error("{place}: {message}")]

@@ -1,6 +1,6 @@
 //! Fur: strands that stand on the standard surface, drawn as instanced shell layers.
 //!
-//! Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". k is the height in the coat: 0 at the skin, 1 at the
+//! Lengyel et al. 2001, "Real-Time Fur over Arbitrary Surfaces". k is the height in the fur: 0 at the skin, 1 at the
 //! tip; `map` is the strand distribution: large inside a strand, 0 between strands.
 
 use super::kind::{Count, Distance, Length, Map, Number, OneOf, Optional, Rgb, Vector2, Vector3};
@@ -36,7 +36,7 @@ const UNBOUNDED: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const UNIT: (f64, f64) = (0.0, 1.0);
 
 crate::parameters! {
-    /// A coat of fur.
+    /// Fur.
     pub struct Fur {
         length: Length as Distance = Length::Relative(0.04), (0.0, 1e6), "m", "Length of the strands; times vertex colour alpha and height_map.";
         height_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the local length, 1 = full.";
@@ -57,7 +57,7 @@ crate::parameters! {
         root_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Factor on the base colour at the root.";
         tip_color: Vec3 as Rgb = Vec3::ONE, UNIT, "", "Factor on the base colour at the tip.";
         color_variation: f32 as Number = 0.2, UNIT, "", "Variation of brightness from strand to strand.";
-        spot_color: Vec3 as Rgb = Vec3::ZERO, UNIT, "", "Linear colour of the coat pattern.";
+        spot_color: Vec3 as Rgb = Vec3::ZERO, UNIT, "", "Linear colour of the fur pattern.";
         spot_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: R is the weight of spot_color over the base colour of the strands (the skin has none); none: no spots.";
         force: Vec3 as Vector3 = Vec3::NEG_Y, (-1e3, 1e3), "", "Direction of a constant force, gravity by default.";
         force_strength: f32 as Number = 0.25, UNIT, "", "How far the force bends the strands, 1 = a right angle at the tip.";
@@ -65,7 +65,7 @@ crate::parameters! {
         inertia: f32 as Number = 0.0, UNIT, "", "How far strands lag behind an animated surface and settle after it, 0 = not at all.";
         stiffness: f32 as Number = 400.0, (1e-2, 1e8), "1/s^2", "How fast lagging strands spring back: the square of their angular frequency.";
         damping: f32 as Number = 0.25, (0.0, 1e4), "", "How soon strands stop swaying, 1 = without ever swinging past their rest.";
-        comb: Vec2 as Vector2 = Vec2::ZERO, (-1.0, 1.0), "", "Lie of the coat, 1 = flat on the skin: around the vertical of the rest pose, and up along the surface.";
+        comb: Vec2 as Vector2 = Vec2::ZERO, (-1.0, 1.0), "", "Lie of the fur, 1 = flat on the skin: around the vertical of the rest pose, and up along the surface.";
         comb_map: Option<TextureRef> as Map = None, UNBOUNDED, "", "Data: RG is the local lie, (lie + 1) / 2; added to comb.";
         blend: Blend as OneOf<Blend> = Blend::Cutout, UNBOUNDED, "", "How layers meet the frame: cutout, coverage or blend.";
         curl: f32 as Number = 0.0, UNIT, "", "How far strands coil, 1 = by their own spacing.";

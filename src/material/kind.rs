@@ -2,10 +2,10 @@
 
 use super::nearest::nearest;
 use super::parameter::{Parameter, ParameterError};
-use super::reference::color::linear_from_srgb;
 use super::texture::{self, ImageName};
 use super::value::Value;
 use crate::asset::TextureRef;
+use crate::math::linear_from_srgb_byte;
 use glam::{Vec2, Vec3, Vec4};
 use std::marker::PhantomData;
 
@@ -320,7 +320,7 @@ fn hexadecimal(text: &str) -> Option<[Option<u8>; 4]> {
 }
 
 fn decoded(r: Option<u8>, g: Option<u8>, b: Option<u8>) -> Vec3 {
-    Vec3::from_array([r, g, b].map(|byte| linear_from_srgb(f64::from(byte.unwrap_or(0)) / 255.0) as f32))
+    Vec3::from_array([r, g, b].map(|byte| linear_from_srgb_byte(byte.unwrap_or(0))))
 }
 
 /// A length, absolute or relative to the size of what it is on.

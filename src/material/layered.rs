@@ -104,7 +104,7 @@ impl Layered {
             layered.clearcoat_normal_texture = coat.normal_texture;
             layered.clearcoat_normal_scale = coat.normal_scale;
         }
-        super::Family::clamp(&mut layered);
+        super::ParameterSet::clamp(&mut layered);
         layered.changes_something().then_some(layered)
     }
 

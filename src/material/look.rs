@@ -15,11 +15,11 @@
 use super::error::MaterialError;
 use super::kind::TextureSource;
 use super::nearest::nearest;
-use super::parameter::{Family, Parameter, ParameterError};
+use super::parameter::{Parameter, ParameterError, ParameterSet};
 use super::preset;
 use super::texture::{Appended, ReadImage};
 use super::value::Value;
-use super::{Cloth, Fur, KINDS, Material, Standard};
+use super::{Family, Fur, KINDS, Material, Standard};
 use crate::asset::Asset;
 use toml::de::{DeTable, DeValue};
 
@@ -112,6 +112,24 @@ impl Look {
     }
 }
 
+impl Material {
+    /// Sets a parameter by its key in look files: of its fur or family, or of its surface where these have no such key.
+    ///
+    /// # Errors
+    /// A key that a material of its kind has not, a value of the wrong type or outside its range, a texture that cannot be
+    /// had.
+    pub fn set(&mut self, key: &str, value: &Value, textures: &mut dyn TextureSource) -> Result<(), ParameterError> {
+        let kind = self.kind();
+        let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
+        match (&mut self.fur, &mut self.family) {
+            (Some(fur), _) if Fur::parameter(key).is_some() => fur.set(key, value, textures),
+            (None, Some(cloth)) if has(cloth.parameters()) => cloth.set(key, value, textures),
+            _ if Standard::parameter(key).is_some() => self.standard.set(key, value, textures),
+            _ => Err(foreign(key, kind)),
+        }
+    }
+}
+
 impl Section {
     /// The kind that it makes of its material, if it says one: one of [`KINDS`].
     pub(crate) fn kind(&self) -> Option<&'static str> {
@@ -121,31 +139,22 @@ impl Section {
     pub(crate) fn apply(&self, material: &mut Material, textures: &mut dyn TextureSource) -> Result<(), MaterialError> {
         if let Some(entry) = &self.preset {
             let preset = find_preset(entry)?;
-            // A preset starts from the defaults of its kind, whatever coat or cloth was there.
+            // A preset starts from the defaults of its kind, whatever fur or cloth was there.
             if preset.section.kind.is_some() {
-                (material.fur, material.cloth) = (None, None);
+                (material.fur, material.family) = (None, None);
             }
-            // Cloth brings its own colour and shine, where a coat shows the surface's.
-            if preset.section.kind.is_some_and(|kind| Cloth::KINDS.contains(&kind)) {
+            // Cloth brings its own colour and shine, where fur shows the surface's.
+            if preset.section.kind.is_some_and(|kind| Family::KINDS.contains(&kind)) {
                 material.standard = material.standard.undyed();
             }
             preset.section.apply(material, textures)?;
         }
         if let Some(kind) = self.kind.filter(|kind| *kind != material.kind()) {
-            material.cloth = Cloth::of_kind(kind);
+            material.family = Family::of_kind(kind);
             material.fur = (kind == "fur").then(Fur::default);
         }
         for entry in &self.entries {
-            let Entry { key, value, .. } = entry;
-            let kind = material.kind();
-            let has = |list: &[Parameter]| list.iter().any(|parameter| parameter.name == key);
-            let done = match (&mut material.fur, &mut material.cloth) {
-                (Some(fur), _) if Fur::parameter(key).is_some() => fur.set(key, value, textures),
-                (None, Some(cloth)) if has(cloth.parameters()) => cloth.set(key, value, textures),
-                _ if Standard::parameter(key).is_some() => material.standard.set(key, value, textures),
-                _ => Err(foreign(key, kind)),
-            };
-            done.map_err(|problem| entry.error(problem))?;
+            material.set(&entry.key, &entry.value, textures).map_err(|problem| entry.error(problem))?;
         }
         for entry in &self.surface {
             material.standard.set(&entry.key, &entry.value, textures).map_err(|problem| entry.error(problem))?;

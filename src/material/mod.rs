@@ -1,11 +1,11 @@
-//! What surfaces are made of: parameters, looks and presets, and double-precision twins of the shading.
+//! What surfaces are made of: parameters, looks and presets.
 //!
 //! Every family declares its parameters once, through [`parameters!`](crate::parameters); look files, glTF extras and
-//! presets all end in [`Family::set`]. Nothing here knows the GPU.
+//! presets all end in [`ParameterSet::set`]. Nothing here knows the GPU.
 
-mod cloth;
 mod cotton;
 mod error;
+mod family;
 mod fur;
 mod gauze;
 mod glint;
@@ -17,19 +17,20 @@ mod nearest;
 pub mod parameter;
 mod preset;
 pub mod procedural;
-pub mod reference;
 mod satin;
 mod schema;
 mod sheen;
 mod skin;
 mod standard;
 mod texture;
+mod threads;
 mod value;
 mod velvet;
 
-pub use cloth::{Cloth, KINDS};
 pub use cotton::Cotton;
 pub use error::MaterialError;
+pub(crate) use family::families;
+pub use family::{Family, KINDS};
 pub use fur::{Blend, ForceSpace, Fur, Shape};
 pub use gauze::{Gauze, Weave};
 pub use glint::{Flakes, Glint};
@@ -38,13 +39,14 @@ pub use laser::{ColorMode, FilmKind, HueCurve, HueDirection, Laser};
 pub use layered::Layered;
 pub use look::Look;
 pub use nearest::nearest;
-pub use parameter::{Family, Parameter, ParameterError};
+pub use parameter::{Parameter, ParameterError, ParameterSet};
 pub use preset::{Preset, presets};
 pub use satin::Satin;
 pub use schema::look_schema;
 pub use sheen::{Sheen, SheenEntry, SheenModel, SheenTable};
 pub use standard::{AlphaMode, Standard};
 pub use texture::{ImageName, ReadImage};
+pub use threads::Threads;
 pub use value::Value;
 pub use velvet::Velvet;
 
@@ -58,16 +60,16 @@ pub struct Material {
     pub name: String,
     /// The surface.
     pub standard: Standard,
-    /// What it is woven of, where that is more than the standard surface. Not seen under a coat, whose skin is standard.
-    pub cloth: Option<Cloth>,
-    /// The coat on it, if it has one.
+    /// What it is woven of, where that is more than the standard surface. Not seen under fur, whose skin is standard.
+    pub family: Option<Family>,
+    /// The fur on it, if it has one.
     pub fur: Option<Fur>,
 }
 
 impl Material {
     /// What files call it: one of [`KINDS`].
     pub fn kind(&self) -> &'static str {
-        match (&self.fur, &self.cloth) {
+        match (&self.fur, &self.family) {
             (Some(_), _) => "fur",
             (None, Some(cloth)) => cloth.kind(),
             (None, None) => "standard",
@@ -85,8 +87,8 @@ pub fn from_asset(asset: &mut Asset, read_image: ReadImage) -> Result<Vec<Materi
     let mut keys = Vec::new();
     for (index, source) in asset.materials.iter_mut().enumerate() {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
-        let cloth = Layered::of(&source.extensions).map(Cloth::Layered);
-        materials.push(Material { name, standard: Standard::from(&*source), cloth, fur: None });
+        let cloth = Layered::of(&source.extensions).map(Family::Layered);
+        materials.push(Material { name, standard: Standard::from(&*source), family: cloth, fur: None });
         if let Some(vair) = source.vair.clone() {
             keys.push((index, vair));
         }

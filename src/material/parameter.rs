@@ -102,7 +102,7 @@ fn suggestion(nearest: &Option<String>) -> String {
 }
 
 /// A family of parameters, as [`parameters!`](crate::parameters) declares it.
-pub trait Family: Default {
+pub trait ParameterSet: Default {
     /// Its parameters, in the order of declaration.
     const PARAMETERS: &'static [Parameter];
 
@@ -161,7 +161,7 @@ macro_rules! parameters {
             }
         }
 
-        impl $crate::material::Family for $family {
+        impl $crate::material::ParameterSet for $family {
             const PARAMETERS: &'static [$crate::material::Parameter] = &[
                 $($crate::material::parameter::declared::<$kind>(
                     stringify!($name),

@@ -1,7 +1,7 @@
 //! The JSON schema of look files, made from the declarations of the parameters: editors complete and check with it.
 
 use super::kind::Form;
-use super::parameter::{Family, Parameter};
+use super::parameter::{Parameter, ParameterSet};
 use super::{KINDS, Standard, presets, procedural};
 use crate::asset::MAX_UV_SETS;
 use serde_json::{Map, Value, json};
@@ -25,7 +25,7 @@ pub fn look_schema() -> Value {
     let mut keys: Map<String, Value> = meanings.into_iter().map(one_or_any).collect();
     keys.insert("preset".to_owned(), json!({ "enum": preset_names(), "description": "Where the other keys start." }));
     keys.insert("kind".to_owned(), json!({ "enum": KINDS.iter().map(|(kind, _)| *kind).collect::<Vec<_>>() }));
-    let surface_text = "Keys of the surface under a coat.";
+    let surface_text = "Keys of the surface under fur.";
     keys.insert(
         "surface".to_owned(),
         json!({ "type": "object", "properties": surface, "additionalProperties": false, "description": surface_text }),

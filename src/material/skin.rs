@@ -1,11 +1,11 @@
-//! The surface under a coat.
+//! The surface under fur.
 
 use super::{AlphaMode, Fur, Standard};
 use crate::asset::TextureRef;
 use glam::Vec3;
 
 impl Fur {
-    /// Colour factor and texture of the strands: their own, or the surface's where they have none. A coat with a colour of
+    /// Colour factor and texture of the strands: their own, or the surface's where they have none. Fur with a colour of
     /// its own does not take the surface's texture.
     pub fn color_over(&self, surface: &Standard) -> (Vec3, Option<TextureRef>) {
         match self.base_color {
@@ -14,8 +14,8 @@ impl Fur {
         }
     }
 
-    /// The skin: the coat's base colour goes on in it, so that gaps between strands show no foreign colour (spots are
-    /// the strands' alone). It is closed and rough, and as dark as the coat above leaves it.
+    /// The skin: the fur's base colour goes on in it, so that gaps between strands show no foreign colour (spots are
+    /// the strands' alone). It is closed and rough, and as dark as the fur above leaves it.
     pub fn skin(&self, surface: &Standard) -> Standard {
         let (color, texture) = self.color_over(surface);
         Standard {

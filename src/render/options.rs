@@ -1,13 +1,19 @@
 //! What one frame is asked to be.
 
-use super::{Aovs, EnvironmentQuality, RenderError, ScreenOcclusion};
-use crate::asset::{Asset, Primitive, Topology};
-use crate::material::{Fur, Material};
-use crate::scene::{CameraChoice, Instance, Light, Scene, Surroundings};
+use super::light::EnvironmentQuality;
+use super::pass::ssao::ScreenOcclusion;
+use super::picture::Aovs;
+use super::plan::{PictureOptions, PlanOptions};
+use super::{RenderError, Target};
+use crate::asset::Asset;
+use crate::scene::{CameraChoice, EnvironmentLight, Light};
 use glam::Vec3;
 use std::ops::RangeInclusive;
 
-/// Most shells of a coat.
+/// Depth of our own targets is 32-bit float, reversed: 1 at the near plane.
+pub const DEPTH_FORMAT: ash::vk::Format = ash::vk::Format::D32_SFLOAT;
+
+/// Most shells of fur.
 pub const MAX_LAYERS: u32 = 256;
 
 /// Everything that a frame depends on beside its scene. `Default` is a 1280 x 720 picture of the rest pose.
@@ -15,13 +21,13 @@ pub const MAX_LAYERS: u32 = 256;
 pub struct FrameOptions {
     /// Pixels, each at least 1 and at most what the device allows.
     pub size: [u32; 2],
-    /// Whose eye.
+    /// Camera to render from.
     pub camera: CameraChoice,
     /// Index of the scene; `None` = the file's default.
     pub scene: Option<usize>,
     /// Index of the animation clip; `None` = rest pose.
     pub animation: Option<usize>,
-    /// Seconds into the clip; beyond its end it starts again. Coats with inertia sway where frames follow each other closely
+    /// Seconds into the clip; beyond its end it starts again. Fur with inertia sways where frames follow each other closely
     /// ([`Renderer::advance`](super::Renderer::advance)).
     pub time_s: f32,
     /// Index of the KHR_materials_variants variant.
@@ -30,19 +36,19 @@ pub struct FrameOptions {
     pub tonemap: Tonemap,
     /// Stops; radiance is multiplied by 2^exposure.
     pub exposure_ev: f32,
-    /// Light from all around.
-    pub surroundings: Surroundings,
+    /// The environment that lights the scene and stands behind it.
+    pub environment: EnvironmentLight,
     /// Lights beside those of the file, in world space.
     pub lights: Vec<Light>,
     /// Shadows of lights.
     pub shadows: Shadows,
-    /// How finely the surroundings are prepared.
+    /// How finely the environment is prepared.
     pub environment_quality: EnvironmentQuality,
     /// What is shown where nothing was drawn.
     pub background: Background,
     /// Format of the linear colour target.
     pub hdr_format: HdrFormat,
-    /// Shells a coat; `None` = what each material says.
+    /// Shells of fur; `None` = what each material says.
     pub layers: Option<u32>,
     /// Factor on the shells that each material says, > 0; the product is rounded and kept within 1 to 256. Without
     /// effect where `layers` is given.
@@ -75,7 +81,7 @@ impl Default for FrameOptions {
             variant: None,
             tonemap: Tonemap::Neutral,
             exposure_ev: 0.0,
-            surroundings: Surroundings::default(),
+            environment: EnvironmentLight::default(),
             lights: Vec::new(),
             shadows: Shadows::default(),
             environment_quality: EnvironmentQuality::default(),
@@ -95,33 +101,35 @@ impl Default for FrameOptions {
 }
 
 impl FrameOptions {
-    /// Shells of a coat whose material says `layers`.
-    pub fn layers_of_coat(&self, layers: u32) -> u32 {
-        self.layers.unwrap_or_else(|| (layers as f32 * self.layer_scale).round().clamp(1.0, MAX_LAYERS as f32) as u32)
-    }
-
     /// Whether the picture shows the environment where nothing was drawn. A constant one is just a colour, and a format
     /// without alpha cannot tell where that is: there the environment's mean stands behind.
     pub fn shows_environment(&self) -> bool {
         self.background == Background::Environment
             && self.hdr_format.has_alpha()
-            && self.surroundings.constant_radiance().is_none()
+            && self.environment.constant_radiance().is_none()
     }
 
-    /// Whether the frame needs depth, normal or motion of what is nearest.
-    pub(super) fn has_guide(&self) -> bool {
-        self.aovs.any() || self.screen_occlusion.is_some() || self.everything
-    }
-
-    /// Whether what a draw shows goes into the lists of pixels, `blend` where it blends.
-    pub(super) fn lists(&self, blend: bool) -> bool {
-        blend && self.transparency != Transparency::Sorted
-    }
-
-    /// Whether strands of this coat lag behind: they have inertia, and something can move them.
-    pub(super) fn sways(&self, fur: &Fur) -> bool {
-        let moves = fur.inertia > 0.0 && self.animation.is_some();
-        (moves || self.everything) && self.shells.submission != ShellSubmission::Duplicated
+    /// What of these options a plan depends on.
+    pub fn plan_options(&self) -> PlanOptions {
+        PlanOptions {
+            target: Target { color: self.hdr_format.vulkan(), ..Target::hdr(self.msaa) },
+            layers: self.layers,
+            layer_scale: self.layer_scale,
+            shells: self.shells,
+            transparency: self.transparency,
+            shadows: self.shadows,
+            has_dynamics: self.animation.is_some(),
+            everything: self.everything,
+            cast_into: None,
+            has_host_shadows: false,
+            picture: Some(PictureOptions {
+                aovs: self.aovs,
+                has_ssao: self.screen_occlusion.is_some(),
+                tonemap: self.tonemap,
+                hdr_format: self.hdr_format,
+                shows_environment: self.shows_environment(),
+            }),
+        }
     }
 
     /// Says which option is out of its range or names what the file lacks.
@@ -145,9 +153,9 @@ impl FrameOptions {
         if !(self.layer_scale > 0.0 && self.layer_scale.is_finite()) {
             return wrong("layer scale", format!("{} is not a finite number greater than 0", self.layer_scale));
         }
-        let Surroundings { strength, rotation_deg, .. } = self.surroundings;
+        let EnvironmentLight { strength, rotation_deg, .. } = self.environment;
         if !(strength >= 0.0 && strength.is_finite() && rotation_deg.is_finite()) {
-            return wrong("surroundings", "strength and rotation must be finite, the strength not negative".to_owned());
+            return wrong("environment", "strength and rotation must be finite, the strength not negative".to_owned());
         }
         if let Some(problem) = self.environment_quality.problem() {
             return wrong("environment quality", problem);
@@ -181,36 +189,6 @@ impl FrameOptions {
         ] {
             if let Some(index) = index.filter(|index| *index >= count) {
                 return wrong(option, format!("there is no {option} {index}; the file has {count}"));
-            }
-        }
-        Ok(())
-    }
-
-    /// Says which coat cannot have its vertices once a shell.
-    pub(super) fn check_coats(&self, scene: &Scene, instances: &[Instance]) -> Result<(), RenderError> {
-        if self.shells.submission != ShellSubmission::Duplicated {
-            return Ok(());
-        }
-        for instance in instances {
-            let Material { fur: Some(fur), name, .. } = &scene.materials()[instance.material] else { continue };
-            let Primitive { topology, vertices, indices, morph_targets, .. } =
-                &scene.asset().meshes[instance.mesh].primitives[instance.primitive];
-            if *topology != Topology::Triangles {
-                continue;
-            }
-            let wrong = |problem: &str| {
-                let problem = format!("the coat '{name}' {problem}; submit its shells instanced or as draws");
-                Err(RenderError::Option { option: "duplicated shells", problem })
-            };
-            if instance.skin.is_some() || !morph_targets.is_empty() {
-                return wrong("is skinned or morphed, which moves one copy of its vertices");
-            }
-            if fur.inertia > 0.0 && self.animation.is_some() {
-                return wrong("has inertia, which moves one copy of its vertices");
-            }
-            let layers = self.layers_of_coat(fur.layers) as usize;
-            if vertices.positions.len().max(indices.len()).saturating_mul(layers) > u32::MAX as usize {
-                return wrong("has more vertices or indices in all shells than 32 bits can count");
             }
         }
         Ok(())
@@ -306,7 +284,7 @@ pub enum ShellSubmission {
 /// Which shell comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ShellOrder {
-    /// The outermost: depth tests then reject what it hides. Coats that blend start with the innermost all the same.
+    /// The outermost: depth tests then reject what it hides. Fur that blends starts with the innermost all the same.
     #[default]
     OuterFirst,
     /// The innermost.
@@ -343,7 +321,7 @@ impl Tonemap {
 /// What is shown where nothing was drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Background {
-    /// What is all around.
+    /// The environment.
     Environment,
     /// Nothing: the picture has an alpha channel.
     Transparent,

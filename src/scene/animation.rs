@@ -7,12 +7,21 @@ use glam::{Mat4, Quat};
 use crate::asset::{Animation, Asset, Interpolation, Keys, Transform};
 
 /// All nodes at one time.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Pose {
     /// One per node of the file, whatever the scene.
     pub world_from_node: Vec<Mat4>,
     /// Morph weights, one list per node; empty for a node without morph targets.
     pub weights: Vec<Vec<f32>>,
+    /// Of each node in its parent, and the nodes still to visit: kept so that the next pose allocates nothing.
+    transforms: Vec<Transform>,
+    open: Vec<(usize, Mat4)>,
+}
+
+impl PartialEq for Pose {
+    fn eq(&self, other: &Self) -> bool {
+        self.world_from_node == other.world_from_node && self.weights == other.weights
+    }
 }
 
 /// The pose at `time_s` of a clip, or the rest pose without one.
@@ -21,20 +30,49 @@ pub struct Pose {
 /// `duration_s`. Where two channels drive one property the later wins. Nodes given by a matrix ignore animation.
 /// An index beyond the file's clips gives the rest pose.
 pub fn pose(asset: &Asset, animation: Option<usize>, time_s: f32) -> Pose {
-    let mut transforms: Vec<Transform> = asset.nodes.iter().map(|node| node.transform).collect();
-    let mut weights: Vec<Vec<f32>> = asset
-        .nodes
-        .iter()
-        .map(|node| match node.mesh {
-            Some(mesh) if node.weights.is_empty() => asset.meshes[mesh].weights.clone(),
-            Some(_) => node.weights.clone(),
-            None => Vec::new(),
-        })
-        .collect();
-    if let Some(clip) = animation.and_then(|index| asset.animations.get(index)) {
-        animate(clip, time_s, &mut transforms, &mut weights);
+    let mut pose = Pose::default();
+    pose.set(asset, animation, time_s);
+    pose
+}
+
+impl Pose {
+    /// Becomes [`pose`], in the memory that it has.
+    pub fn set(&mut self, asset: &Asset, animation: Option<usize>, time_s: f32) {
+        self.transforms.clear();
+        self.transforms.extend(asset.nodes.iter().map(|node| node.transform));
+        self.weights.resize_with(asset.nodes.len(), Vec::new);
+        for (weights, node) in self.weights.iter_mut().zip(&asset.nodes) {
+            weights.clear();
+            match node.mesh {
+                Some(mesh) if node.weights.is_empty() => weights.extend(&asset.meshes[mesh].weights),
+                Some(_) => weights.extend(&node.weights),
+                None => {}
+            }
+        }
+        if let Some(clip) = animation.and_then(|index| asset.animations.get(index)) {
+            animate(clip, time_s, &mut self.transforms, &mut self.weights);
+        }
+        self.walk(asset);
     }
-    Pose { world_from_node: world_from_node(asset, &transforms), weights }
+
+    /// Walks the forest without recursion: a file decides how deep it is.
+    fn walk(&mut self, asset: &Asset) {
+        let Self { world_from_node, transforms, open, .. } = self;
+        world_from_node.clear();
+        // Not yet known: what is nobody's child is a root.
+        world_from_node.resize(asset.nodes.len(), Mat4::NAN);
+        for &child in asset.nodes.iter().flat_map(|node| &node.children) {
+            world_from_node[child] = Mat4::IDENTITY;
+        }
+        open.clear();
+        let is_root = |node: &usize| world_from_node[*node].is_nan();
+        open.extend((0..asset.nodes.len()).filter(is_root).map(|root| (root, Mat4::IDENTITY)));
+        while let Some((node, world_from_parent)) = open.pop() {
+            let world = world_from_parent * transforms[node].matrix();
+            world_from_node[node] = world;
+            open.extend(asset.nodes[node].children.iter().map(|&child| (child, world)));
+        }
+    }
 }
 
 fn animate(clip: &Animation, time_s: f32, transforms: &mut [Transform], weights: &mut [Vec<f32>]) {
@@ -54,9 +92,9 @@ fn animate(clip: &Animation, time_s: f32, transforms: &mut [Transform], weights:
                 *rotation = if sampled.length_squared() > 0.0 { sampled.normalize() } else { Quat::IDENTITY };
             }
             (&Keys::Weights { targets, ref values }, _) => {
-                weights[channel.node] = (0..targets)
-                    .map(|target| span.sample(how, |i| values[i * targets + target], |a, b, t| a + (b - a) * t))
-                    .collect();
+                weights[channel.node].clear();
+                let sample = |target| span.sample(how, |i| values[i * targets + target], |a, b, t| a + (b - a) * t);
+                weights[channel.node].extend((0..targets).map(sample));
             }
             (_, Transform::Matrix(_)) => {}
         }
@@ -101,22 +139,6 @@ impl Span {
             }
         }
     }
-}
-
-/// Walks the forest without recursion: a file decides how deep it is.
-fn world_from_node(asset: &Asset, transforms: &[Transform]) -> Vec<Mat4> {
-    let mut is_child = vec![false; asset.nodes.len()];
-    for &child in asset.nodes.iter().flat_map(|node| &node.children) {
-        is_child[child] = true;
-    }
-    let mut world = vec![Mat4::IDENTITY; asset.nodes.len()];
-    let mut open: Vec<(usize, Mat4)> =
-        (0..asset.nodes.len()).filter(|&node| !is_child[node]).map(|root| (root, Mat4::IDENTITY)).collect();
-    while let Some((node, world_from_parent)) = open.pop() {
-        world[node] = world_from_parent * transforms[node].matrix();
-        open.extend(asset.nodes[node].children.iter().map(|&child| (child, world[node])));
-    }
-    world
 }
 
 #[cfg(test)]

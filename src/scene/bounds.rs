@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec3};
 
 use super::deform::{deformed_positions, influences, morphed_positions};
-use super::{Pose, instances, joint_matrices, pose};
+use super::{Instance, Pose, instances, joint_matrices, pose};
 use crate::asset::{Asset, Primitive, Topology};
 use crate::math::{Aabb, Hull};
 
@@ -11,18 +11,23 @@ use crate::math::{Aabb, Hull};
 /// one.
 const EXACT_SKINNED_VERTICES: usize = 100_000;
 
-/// World metres per unit of a node's mesh in its rest pose: the square root of how its surface grows, so that turning it,
-/// as a whole or at its joints, changes nothing. 1 for a mesh without surface.
+/// [`world_scale`] of a node's mesh in its rest pose.
 pub fn object_scale(asset: &Asset, node: usize) -> f32 {
     let Some(mesh) = asset.nodes[node].mesh else { return 1.0 };
     let rest = pose(asset, None, 0.0);
     let joints = asset.nodes[node].skin.map(|skin| joint_matrices(asset, skin, &rest)).unwrap_or_default();
     let matrix = if joints.is_empty() { rest.world_from_node[node] } else { Mat4::IDENTITY };
+    world_scale(asset, mesh, matrix, &joints, &rest.weights[node])
+}
+
+/// World metres per unit of a mesh that is posed like that: the square root of how its surface grows, so that turning it,
+/// as a whole or at its joints, changes nothing. 1 for a mesh without surface.
+pub fn world_scale(asset: &Asset, mesh: usize, world_from_object: Mat4, joints: &[Mat4], weights: &[f32]) -> f32 {
     let (mut in_mesh, mut in_world) = (0.0, 0.0);
     for primitive in &asset.meshes[mesh].primitives {
-        let places: Vec<Vec3> = deformed_positions(primitive, &joints, &rest.weights[node])
+        let places: Vec<Vec3> = deformed_positions(primitive, joints, weights)
             .iter()
-            .map(|&position| matrix.transform_point3(position))
+            .map(|&position| world_from_object.transform_point3(position))
             .collect();
         in_mesh += area(&primitive.vertices.positions, primitive);
         in_world += area(&places, primitive);
@@ -51,10 +56,11 @@ fn area(positions: &[Vec3], primitive: &Primitive) -> f64 {
 /// that is never too small.
 pub fn world_hull(asset: &Asset, scene: usize, pose: &Pose) -> Hull {
     let mut hull = Hull::default();
-    for instance in instances(asset, scene, pose, None) {
-        let primitive = &asset.meshes[instance.mesh].primitives[instance.primitive];
-        let joints = instance.skin.map(|skin| joint_matrices(asset, skin, pose)).unwrap_or_default();
-        hull.extend(&outer_points(primitive, instance.world_from_object, &joints, &instance.morph_weights));
+    for instance in instances(asset, scene, pose).iter().filter(|instance| instance.is_visible) {
+        for primitive in &asset.meshes[instance.mesh].primitives {
+            let Instance { world_from_object, joints, morph_weights, .. } = instance;
+            hull.extend(&outer_points(primitive, *world_from_object, joints, morph_weights));
+        }
     }
     hull
 }
@@ -72,6 +78,57 @@ fn outer_points(primitive: &Primitive, matrix: Mat4, joints: &[Mat4], weights: &
     let positions = deformed_positions(primitive, joints, weights);
     let places = positions.iter().zip(&used).filter(|&(_, &used)| used);
     places.map(|(&position, _)| matrix.transform_point3(position)).collect()
+}
+
+/// Boxes around what each joint of a primitive moves, in the space of the mesh: from these, and from nothing else of the
+/// mesh, follows a box around any pose.
+#[derive(Debug, Clone)]
+pub struct JointBoxes {
+    /// By joint; the one box around all vertices where no joint moves any.
+    boxes: Vec<Aabb>,
+    is_skinned: bool,
+    /// Longest offset of each morph target.
+    morphs: Vec<f32>,
+}
+
+impl JointBoxes {
+    /// Those of a primitive.
+    pub fn of(primitive: &Primitive) -> Self {
+        let vertices = &primitive.vertices;
+        let longest = |offsets: &[Vec3]| offsets.iter().map(|offset| offset.length()).fold(0.0, f32::max);
+        let morphs = primitive.morph_targets.iter().map(|target| longest(&target.positions)).collect();
+        if vertices.influences_per_vertex == 0 {
+            let boxes = vec![Aabb::around(vertices.positions.iter().copied())];
+            return Self { boxes, is_skinned: false, morphs };
+        }
+        let joints = vertices.joints.iter().map(|(joint, _)| usize::from(*joint) + 1).max().unwrap_or(0);
+        let mut boxes = vec![Aabb::EMPTY; joints];
+        for (vertex, &position) in vertices.positions.iter().enumerate() {
+            for &(joint, weight) in influences(vertices, vertex) {
+                if weight > 0.0 {
+                    let joint_box = &mut boxes[usize::from(joint)];
+                    *joint_box = joint_box.union(Aabb { min: position, max: position });
+                }
+            }
+        }
+        Self { boxes, is_skinned: true, morphs }
+    }
+
+    /// A box around the primitive, posed by `world_from_mesh` of each joint and morph weights: a skinned vertex is a
+    /// weighted mean of its joints' images of it, so it lies in the union of each joint's image of the box around all
+    /// vertices that the joint moves.
+    pub fn posed(&self, joints: &[Mat4], weights: &[f32]) -> Aabb {
+        let reach: f32 = self.morphs.iter().zip(weights).map(|(longest, weight)| longest * weight.abs()).sum();
+        let grown = |bounds: &Aabb| match bounds.is_empty() {
+            true => *bounds,
+            false => Aabb { min: bounds.min - reach, max: bounds.max + reach },
+        };
+        if !self.is_skinned || joints.is_empty() {
+            return self.boxes.iter().fold(Aabb::EMPTY, |all, bounds| all.union(grown(bounds)));
+        }
+        let posed = self.boxes.iter().zip(joints).map(|(bounds, joint)| grown(bounds).transformed(*joint));
+        posed.fold(Aabb::EMPTY, Aabb::union)
+    }
 }
 
 /// A skinned vertex is a weighted mean of its joints' images of it, so it lies in the union of each joint's image of

@@ -2,6 +2,7 @@
 
 /// A scene that cannot be loaded or dressed, or a request that it cannot meet.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be loaded.
     #[error(transparent)]
@@ -16,6 +17,14 @@ pub enum SceneError {
         file: std::path::PathBuf,
         /// Which key, and why.
         source: Box<crate::material::MaterialError>,
+    },
+    /// A parameter of a material cannot be set.
+    #[error("material \"{material}\": {source}")]
+    Parameter {
+        /// The material's name.
+        material: String,
+        /// Which key, and why.
+        source: Box<crate::material::ParameterError>,
     },
     /// No such animation, scene, camera or variant.
     #[error("no {kind} \"{asked}\": {}", available_in_words(kind, available))]

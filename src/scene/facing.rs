@@ -19,18 +19,18 @@ pub enum Side {
     Front,
 }
 
-/// The triangles of a primitive, those of like normals taken together: as many as there are directions to face, however
+/// Depth-sorting clusters: the triangles of a primitive, those of like normals taken together: as many as there are directions to face, however
 /// many triangles there are. In object space and rest pose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Patches {
-    patches: Vec<Patch>,
+pub struct Clusters {
+    clusters: Vec<Cluster>,
     /// Middle of the box around all positions, whether triangles join them or not.
     pub middle: Vec3,
 }
 
 /// Triangles of like normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Patch {
+struct Cluster {
     /// Sum of the normals, as long as the areas.
     normal: Vec3,
     /// Mean place, weighted by area.
@@ -38,26 +38,26 @@ struct Patch {
     area: f32,
 }
 
-impl Patches {
+impl Clusters {
     /// Those of a list of triangles.
     pub fn of(primitive: &Primitive) -> Self {
         let positions = &primitive.vertices.positions;
-        let mut groups: BTreeMap<[i32; 4], Patch> = BTreeMap::new();
+        let mut groups: BTreeMap<[i32; 4], Cluster> = BTreeMap::new();
         for triangle in primitive.indices.chunks_exact(3) {
             let [a, b, c] = [triangle[0], triangle[1], triangle[2]].map(|index| positions[index as usize]);
             let normal = 0.5 * (b - a).cross(c - a);
             let area = normal.length();
             if area > 0.0 && area.is_finite() {
-                let empty = Patch { normal: Vec3::ZERO, middle: Vec3::ZERO, area: 0.0 };
-                let patch = groups.entry(group(normal)).or_insert(empty);
-                patch.normal += normal;
-                patch.middle += area * (a + b + c) / 3.0;
-                patch.area += area;
+                let empty = Cluster { normal: Vec3::ZERO, middle: Vec3::ZERO, area: 0.0 };
+                let cluster = groups.entry(group(normal)).or_insert(empty);
+                cluster.normal += normal;
+                cluster.middle += area * (a + b + c) / 3.0;
+                cluster.area += area;
             }
         }
-        let mean = |patch: Patch| Patch { middle: patch.middle / patch.area, ..patch };
+        let mean = |cluster: Cluster| Cluster { middle: cluster.middle / cluster.area, ..cluster };
         let middle = Aabb::around(positions.iter().copied()).center();
-        Self { patches: groups.into_values().map(mean).collect(), middle }
+        Self { clusters: groups.into_values().map(mean).collect(), middle }
     }
 
     /// Mean depth before the camera of what shows that side, weighted by how much of the picture it takes; of everything
@@ -70,13 +70,13 @@ impl Patches {
         let object_from_world = world_from_object.inverse();
         let eye = object_from_world.transform_point3(camera.eye_in_world());
         let towards = object_from_world.transform_vector3(backwards);
-        for patch in &self.patches {
-            let depth = -(world_from_object.transform_point3(patch.middle) - camera.eye_in_world()).dot(backwards);
-            all.add(depth, patch.area);
-            let to_eye = if camera.is_orthographic { towards } else { eye - patch.middle };
+        for cluster in &self.clusters {
+            let depth = -(world_from_object.transform_point3(cluster.middle) - camera.eye_in_world()).dot(backwards);
+            all.add(depth, cluster.area);
+            let to_eye = if camera.is_orthographic { towards } else { eye - cluster.middle };
             // The volume under the eye over the cube of the depth is the area in the picture.
             let scale = if camera.is_orthographic { 1.0 } else { depth.max(0.0).powi(3) };
-            let facing = patch.normal.dot(to_eye);
+            let facing = cluster.normal.dot(to_eye);
             let seen = if side == Side::Front { facing } else { -facing };
             if seen > 0.0 && scale > 0.0 && !is_flat {
                 shown.add(depth, seen / scale);
@@ -130,14 +130,14 @@ mod tests {
 
     #[test]
     fn the_sides_of_a_ball_lie_before_and_behind_its_middle() {
-        let patches = Patches::of(&sphere(1.0, 24));
-        assert!(patches.patches.len() <= 6 * 4 * 4, "{}", patches.patches.len());
+        let clusters = Clusters::of(&sphere(1.0, 24));
+        assert!(clusters.clusters.len() <= 6 * 4 * 4, "{}", clusters.clusters.len());
         let camera = from_the_front();
         let turned = Mat4::from_rotation_translation(Quat::from_rotation_x(1.0), Vec3::Z);
         for (matrix, middle_m) in
             [(Mat4::IDENTITY, 5.0), (turned, 4.0), (Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)), 5.0)]
         {
-            let depth = |side| patches.depth_m(side, matrix, &camera);
+            let depth = |side| clusters.depth_m(side, matrix, &camera);
             // Two thirds of a radius from far away; nearer, as less of the ball and more of what is near is seen.
             let (front, back) = (depth(Side::Front) - middle_m, depth(Side::Back) - middle_m);
             assert!((-0.8..-0.6).contains(&front) && (0.4..0.7).contains(&back), "{front} {back}");
@@ -146,10 +146,10 @@ mod tests {
 
     #[test]
     fn what_shows_nothing_lies_where_it_is() {
-        let patches = Patches::of(&sphere(1.0, 8));
+        let clusters = Clusters::of(&sphere(1.0, 8));
         let flat = Mat4::from_scale(Vec3::new(1.0, 1.0, 0.0));
-        assert!((patches.depth_m(Side::Front, flat, &from_the_front()) - 5.0).abs() < 1e-5);
-        let none = Patches { patches: Vec::new(), middle: Vec3::ZERO };
+        assert!((clusters.depth_m(Side::Front, flat, &from_the_front()) - 5.0).abs() < 1e-5);
+        let none = Clusters { clusters: Vec::new(), middle: Vec3::ZERO };
         assert_eq!(none.depth_m(Side::Back, Mat4::IDENTITY, &from_the_front()), 0.0);
     }
 }

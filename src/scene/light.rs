@@ -7,7 +7,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::{Pose, Surroundings, nodes_of_scene};
+use super::{EnvironmentLight, Pose, nodes_of_scene};
 use crate::asset::{self, Asset};
 
 /// All light of a scene.
@@ -16,7 +16,7 @@ pub struct Lighting {
     /// Punctual lights.
     pub lights: Vec<Light>,
     /// Light from all around.
-    pub surroundings: Surroundings,
+    pub environment: EnvironmentLight,
 }
 
 /// Kind of a light.
@@ -105,28 +105,28 @@ impl Light {
 
 /// The scene's own lights.
 pub fn lights(asset: &Asset, scene: usize, pose: &Pose) -> Vec<Light> {
-    nodes_of_scene(asset, scene)
-        .into_iter()
-        .filter_map(|node| {
-            let light = &asset.lights[asset.nodes[node].light?];
-            let world_from_node = pose.world_from_node[node];
-            let (kind, range_m) = match light.kind {
-                asset::LightKind::Directional => (LightKind::Directional, None),
-                asset::LightKind::Point { range_m } => (LightKind::Point, range_m),
-                asset::LightKind::Spot { range_m, inner_angle, outer_angle } => {
-                    let angle_scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(1e-3);
-                    (LightKind::Spot { angle_scale, angle_offset: -outer_angle.cos() * angle_scale }, range_m)
-                }
-            };
-            Some(Light {
-                kind,
-                position_in_world: world_from_node.w_axis.truncate(),
-                direction_to_light_in_world: world_from_node.z_axis.truncate().normalize_or(Vec3::Z),
-                intensity: light.color * light.intensity,
-                range_m,
-            })
-        })
-        .collect()
+    nodes_of_scene(asset, scene).into_iter().filter_map(|node| light_of_node(asset, node, pose)).collect()
+}
+
+/// The light that a node holds, if it holds one.
+pub fn light_of_node(asset: &Asset, node: usize, pose: &Pose) -> Option<Light> {
+    let light = &asset.lights[asset.nodes[node].light?];
+    let world_from_node = pose.world_from_node[node];
+    let (kind, range_m) = match light.kind {
+        asset::LightKind::Directional => (LightKind::Directional, None),
+        asset::LightKind::Point { range_m } => (LightKind::Point, range_m),
+        asset::LightKind::Spot { range_m, inner_angle, outer_angle } => {
+            let angle_scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(1e-3);
+            (LightKind::Spot { angle_scale, angle_offset: -outer_angle.cos() * angle_scale }, range_m)
+        }
+    };
+    Some(Light {
+        kind,
+        position_in_world: world_from_node.w_axis.truncate(),
+        direction_to_light_in_world: world_from_node.z_axis.truncate().normalize_or(Vec3::Z),
+        intensity: light.color * light.intensity,
+        range_m,
+    })
 }
 
 #[cfg(test)]

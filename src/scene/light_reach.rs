@@ -14,25 +14,33 @@ pub struct LightLists {
 }
 
 impl LightLists {
-    /// The lists of objects with these balls around them.
+    /// The lists of objects with these spheres around them.
     pub fn new(lights: &[Light], objects: impl IntoIterator<Item = Sphere>) -> Self {
         let mut lists = Self::default();
-        let mut known: Vec<(Vec<usize>, Range<u32>)> = Vec::new();
+        lists.set(lights, objects);
+        lists
+    }
+
+    /// Becomes [`Self::new`], in the memory that it has.
+    pub fn set(&mut self, lights: &[Light], objects: impl IntoIterator<Item = Sphere>) {
+        self.lights.clear();
+        self.ranges.clear();
         for object in objects {
-            let own: Vec<usize> = (0..lights.len()).filter(|&index| lights[index].reaches(object)).collect();
-            let range = match known.iter().find(|(list, _)| *list == own) {
-                Some((_, range)) => range.clone(),
-                None => {
-                    let start = lists.lights.len() as u32;
-                    lists.lights.extend(&own);
-                    let range = start..lists.lights.len() as u32;
-                    known.push((own, range.clone()));
+            // The object's own list is written behind all others, and taken back where one of them is the same.
+            let start = self.lights.len();
+            self.lights.extend((0..lights.len()).filter(|&index| lights[index].reaches(object)));
+            let (others, own) = self.lights.split_at(start);
+            let is_own = |range: &&Range<u32>| others[range.start as usize..range.end as usize] == *own;
+            let range = match self.ranges.iter().find(is_own) {
+                Some(range) => {
+                    let range = range.clone();
+                    self.lights.truncate(start);
                     range
                 }
+                None => start as u32..self.lights.len() as u32,
             };
-            lists.ranges.push(range);
+            self.ranges.push(range);
         }
-        lists
     }
 
     /// The lights of an object.
@@ -48,7 +56,7 @@ impl LightLists {
 }
 
 impl Light {
-    /// Whether any of its light can arrive within a ball. Never says no where some does.
+    /// Whether any of its light can arrive within a sphere. Never says no where some does.
     pub fn reaches(&self, object: Sphere) -> bool {
         let to_object = object.center - self.position_in_world;
         let distance_m = to_object.length();
@@ -59,7 +67,7 @@ impl Light {
                 let cosine = (-angle_offset / angle_scale).clamp(-1.0, 1.0);
                 let along_m = -to_object.dot(self.direction_to_light_in_world);
                 let across_m = (distance_m * distance_m - along_m * along_m).max(0.0).sqrt();
-                // How far the ball's middle is outside the cone, by the distance to its side where that is nearest.
+                // How far the sphere's middle is outside the cone, by the distance to its side where that is nearest.
                 let outside_m = across_m * cosine - along_m * (1.0 - cosine * cosine).sqrt();
                 distance_m <= object.radius * (1.0 + SLACK) || outside_m <= object.radius + SLACK * distance_m
             }

@@ -2,7 +2,7 @@
 //! lacks something.
 
 use crate::asset::{Asset, Image, TextureRef};
-use crate::material::{Family, Material};
+use crate::material::{Material, ParameterSet};
 
 /// Adds a warning, once, for each map that its mesh has no texture coordinates for, for each normal map that is grey, and
 /// for cloth that nothing lights.
@@ -12,7 +12,7 @@ pub(super) fn maps(asset: &mut Asset, materials: &[Material]) {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let variants = primitive.variant_materials.iter().map(|&(_, material)| material);
             for material in std::iter::once(primitive.material).chain(variants).map(|index| &materials[index]) {
-                // The maps of a coat are projected onto what has no coordinates.
+                // The maps of fur are projected onto what has no coordinates.
                 let sets = primitive.vertices.uv_sets.len();
                 let lacking = textures(material).filter(|(_, map)| map.uv_set as usize >= sets);
                 let names: Vec<_> = lacking.map(|(name, map)| format!("`{name}` (TEXCOORD_{})", map.uv_set)).collect();
@@ -28,7 +28,7 @@ pub(super) fn maps(asset: &mut Asset, materials: &[Material]) {
         }
     }
     for material in materials {
-        if let Some(cloth) = material.cloth.as_ref().filter(|_| material.standard.unlit) {
+        if let Some(cloth) = material.family.as_ref().filter(|_| material.standard.unlit) {
             warnings.push(format!(
                 "material `{}`: is unlit, so that nothing shows that it is {}; set unlit = false",
                 material.name,
@@ -51,7 +51,7 @@ pub(super) fn maps(asset: &mut Asset, materials: &[Material]) {
 
 /// Those of the surface and its cloth.
 fn textures(material: &Material) -> impl Iterator<Item = (&'static str, TextureRef)> {
-    let cloth = material.cloth.as_ref().map(|cloth| cloth.textures()).unwrap_or_default();
+    let cloth = material.family.as_ref().map(|cloth| cloth.textures()).unwrap_or_default();
     material.standard.textures().into_iter().chain(cloth)
 }
 

@@ -2,16 +2,16 @@
 
 use super::SceneError;
 use super::animation::pose;
-use super::bounds::{object_scale, world_hull};
-use super::facing::Patches;
+use super::bounds::{JointBoxes, object_scale, world_hull, world_scale};
+use super::facing::Clusters;
 use super::lint;
 use crate::asset::procedural::{SWATCH_MATERIAL, swatch};
 use crate::asset::{
     self, Asset, AssetError, Image, LoadOptions, generate_tangents, generate_tangents_around_vertical, tangent_bytes,
 };
-use crate::material::{self, Cloth, Look, Material, Standard, presets};
+use crate::material::{self, Family, ImageName, Look, Material, Standard, TextureSource, Value, presets};
 use crate::math::{Aabb, Hull, Sphere};
-use crate::scene::{Instance, instances};
+use crate::scene::{Instance, Part, instances, parts};
 use glam::Vec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -38,20 +38,25 @@ impl Size {
 /// Poses of a clip that its outline is taken from.
 const OUTLINE_POSES: usize = 16;
 
+type Outlines = HashMap<(usize, Option<usize>), Arc<Hull>>;
+
 /// A file's plain data, dressed with materials.
 #[derive(Debug)]
 pub struct Scene {
     id: u64,
+    revision: u64,
     asset: Asset,
     materials: Vec<Material>,
-    /// Coat sizes by node: they need a rest pose, and every frame asks.
+    /// Sizes of meshes by node: they need a rest pose, and every frame asks.
     sizes: Mutex<HashMap<usize, Size>>,
     /// Outlines by scene and clip, for the same reason.
-    outlines: Mutex<HashMap<(usize, Option<usize>), Hull>>,
+    outlines: Mutex<Outlines>,
     /// Boxes around the positions by mesh and primitive.
     boxes: Mutex<HashMap<(usize, usize), Aabb>>,
-    /// Patches by mesh and primitive, of what blends.
-    patches: Mutex<HashMap<(usize, usize), Arc<Patches>>>,
+    /// Boxes around what each joint moves, by mesh and primitive.
+    joint_boxes: Mutex<HashMap<(usize, usize), JointBoxes>>,
+    /// Depth-sorting clusters by mesh and primitive, of what blends.
+    clusters: Mutex<HashMap<(usize, usize), Arc<Clusters>>>,
 }
 
 impl Scene {
@@ -92,8 +97,9 @@ impl Scene {
     /// Dresses plain data with the materials that it names.
     ///
     /// # Errors
-    /// When a material's `vair` keys are wrong.
+    /// When the data breaks a promise of [`Asset`], or a material's `vair` keys are wrong.
     pub fn from_asset(mut asset: Asset) -> Result<Self, SceneError> {
+        asset::check(&asset)?;
         let materials = material::from_asset(&mut asset, &mut |file| {
             Err(format!("{file}: a scene made in memory has no folder; use a procedural texture"))
         })?;
@@ -109,11 +115,13 @@ impl Scene {
     /// When a key, a value, a file or a material name is wrong; the error names the line.
     pub fn apply(&mut self, look: &Look, folder: &Path, options: &LoadOptions) -> Result<(), SceneError> {
         let mut budget = Budget::of(&self.asset, "look".to_owned(), options);
-        look.apply(&mut self.asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
-        complete(&mut self.asset, &self.materials, &mut budget)?;
-        self.asset.loaded_bytes = budget.spent_bytes;
-        let Self { asset, materials, .. } = std::mem::replace(self, Self::new(Asset::default(), Vec::new()));
-        *self = Self::new(asset, materials);
+        let asset = &mut self.asset;
+        look.apply(asset, &mut self.materials, &mut images_of(folder, options, &mut budget))?;
+        complete(asset, &self.materials, &mut budget)?;
+        asset.loaded_bytes = budget.spent_bytes;
+        // Lengths of fur may have changed, and with them the outline.
+        *self.outlines.get_mut().unwrap_or_else(PoisonError::into_inner) = HashMap::new();
+        self.revision += 1;
         Ok(())
     }
 
@@ -134,8 +142,8 @@ impl Scene {
     }
 
     fn new(asset: Asset, materials: Vec<Material>) -> Self {
-        let (sizes, outlines, boxes, patches) = Default::default();
-        Self { id: new_id(), asset, materials, sizes, outlines, boxes, patches }
+        let (sizes, outlines, boxes, joint_boxes, clusters) = Default::default();
+        Self { id: new_id(), revision: 0, asset, materials, sizes, outlines, boxes, joint_boxes, clusters }
     }
 
     /// What the file says, and the pictures that looks brought along.
@@ -151,16 +159,69 @@ impl Scene {
     /// The same, to change parameters: the next frame shows them. A normal map on a mesh without tangents needs
     /// [`Self::apply`], which makes them.
     pub fn materials_mut(&mut self) -> &mut [Material] {
-        self.id = new_id();
+        self.revision += 1;
+        *self.outlines.get_mut().unwrap_or_else(PoisonError::into_inner) = HashMap::new();
         &mut self.materials
     }
 
-    /// Changes whenever asset or materials do; no two scenes have the same. What a device keeps of a scene goes by it.
+    /// Sets a parameter of a material by its key in look files; the next frame shows it, and nothing but its uniform block is
+    /// uploaded. Textures come with [`Self::apply`].
+    ///
+    /// # Errors
+    /// A material that there is not, a key that it has not, a value of the wrong type or outside its range.
+    pub fn set_parameter(&mut self, material: usize, key: &str, value: &Value) -> Result<(), SceneError> {
+        let available = || {
+            let names = self.materials.iter().enumerate();
+            names.map(|(index, material)| format!("{index} {:?}", material.name)).collect()
+        };
+        let Some(known) = self.materials.get(material) else {
+            return Err(SceneError::Unknown { kind: "material", asked: material.to_string(), available: available() });
+        };
+        let mut changed = known.clone();
+        changed
+            .set(key, value, &mut NoTextures)
+            .map_err(|source| SceneError::Parameter { material: changed.name.clone(), source: Box::new(source) })?;
+        self.materials_mut()[material] = changed;
+        Ok(())
+    }
+
+    /// Puts another picture in the place of an image.
+    ///
+    /// # Errors
+    /// An image that there is not; bytes that are not four a texel.
+    pub fn set_image(&mut self, index: usize, image: Image) -> Result<(), SceneError> {
+        let count = self.asset.images.len();
+        let wrong = |problem: String| {
+            let (file, field) = ("scene".to_owned(), format!("images[{index}]"));
+            SceneError::from(AssetError::Format { file, field, problem })
+        };
+        if index >= count {
+            return Err(wrong(format!("does not exist; the scene has {count} images")));
+        }
+        let texels = u64::from(image.width) * u64::from(image.height);
+        if texels == 0 || texels.saturating_mul(4) != image.rgba.len() as u64 {
+            let (width, height, bytes) = (image.width, image.height, image.rgba.len());
+            return Err(wrong(format!(
+                "{bytes} bytes given for {width} x {height} texels; give four a texel, at least one"
+            )));
+        }
+        self.asset.images[index] = image;
+        self.revision += 1;
+        Ok(())
+    }
+
+    /// No two scenes that were loaded or made have the same. What a device keeps of meshes and images goes by it: changes
+    /// to a scene add to them and take nothing back.
     pub fn id(&self) -> u64 {
         self.id
     }
 
-    /// The surface of a material; under fur it is the skin, which continues the coat's roots.
+    /// Grows whenever materials change.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The surface of a material; under fur it is the skin, which continues the fur's roots.
     ///
     /// # Panics
     /// When there is no such material.
@@ -176,13 +237,13 @@ impl Scene {
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn cloth(&self, material: usize, under_fur: bool) -> Option<&Cloth> {
-        self.materials[material].cloth.as_ref().filter(|_| !under_fur)
+    pub fn family(&self, material: usize, under_fur: bool) -> Option<&Family> {
+        self.materials[material].family.as_ref().filter(|_| !under_fur)
     }
 
-    /// Outline of a scene and its coats over a whole clip, so that a sequence is framed once and every frame of it alike;
+    /// Outline of a scene and its fur over a whole clip, so that a sequence is framed once and every frame of it alike;
     /// of the rest pose without a clip.
-    pub fn outline(&self, scene: usize, animation: Option<usize>) -> Hull {
+    pub fn outline(&self, scene: usize, animation: Option<usize>) -> Arc<Hull> {
         let mut outlines = self.outlines.lock().unwrap_or_else(PoisonError::into_inner);
         let make = || {
             let duration_s = animation.map_or(0.0, |index| self.asset.animations[index].duration_s);
@@ -192,58 +253,78 @@ impl Scene {
                 let time_s = duration_s * index as f32 / poses as f32;
                 hull.extend(world_hull(&self.asset, scene, &pose(&self.asset, animation, time_s)).points());
             }
-            hull.grown(self.longest_coat_m(scene))
+            Arc::new(hull.grown(self.longest_fur_m(scene)))
         };
         outlines.entry((scene, animation)).or_insert_with(make).clone()
     }
 
     /// Length of the longest strands in a scene, metres.
-    fn longest_coat_m(&self, scene: usize) -> f32 {
+    fn longest_fur_m(&self, scene: usize) -> f32 {
         let rest = pose(&self.asset, None, 0.0);
-        let all = instances(&self.asset, scene, &rest, None);
-        all.iter().filter_map(|instance| self.coat_m(instance)).fold(0.0, f32::max)
+        let instances = instances(&self.asset, scene, &rest);
+        let all = parts(&self.asset, &instances, None).into_iter();
+        all.map(|part| self.fur_m(part.material, self.size(&instances[part.instance]))).fold(0.0, f32::max)
     }
 
-    /// Length of an instance's strands, metres.
-    fn coat_m(&self, instance: &Instance) -> Option<f32> {
-        let fur = self.materials[instance.material].fur.as_ref()?;
-        Some(fur.length.metres(self.size(instance).world_radius_m()))
+    /// Length of a material's strands on a mesh of that size, metres; 0 without fur.
+    fn fur_m(&self, material: usize, size: Size) -> f32 {
+        self.materials[material].fur.as_ref().map_or(0.0, |fur| fur.length.metres(size.world_radius_m()))
     }
 
-    /// A ball around an instance and its coat; one of what bends is around all that there is, `whole`. Too large rather
-    /// than too small, and endless where that is not known.
-    pub fn ball(&self, instance: &Instance, whole: Option<Sphere>) -> Sphere {
-        let primitive = &self.asset.meshes[instance.mesh].primitives[instance.primitive];
+    /// A sphere around a part of an instance of that size, and its fur; one of what bends is around all that there is,
+    /// `whole`. Too large rather than too small, and endless where that is not known.
+    pub fn bounding_sphere(&self, part: Part, instance: &Instance, size: Size, whole: Option<Sphere>) -> Sphere {
+        let primitive = &self.asset.meshes[part.mesh].primitives[part.primitive];
         if instance.skin.is_some() || !primitive.morph_targets.is_empty() {
             return whole.unwrap_or(Sphere { center: Vec3::ZERO, radius: f32::INFINITY });
         }
         let mut boxes = self.boxes.lock().unwrap_or_else(PoisonError::into_inner);
         let make = || Aabb::around(primitive.vertices.positions.iter().copied());
-        let bounds = *boxes.entry((instance.mesh, instance.primitive)).or_insert_with(make);
+        let bounds = *boxes.entry((part.mesh, part.primitive)).or_insert_with(make);
         let Sphere { center, radius } = bounds.transformed(instance.world_from_object).sphere();
-        Sphere { center, radius: radius + self.coat_m(instance).unwrap_or(0.0) }
+        Sphere { center, radius: radius + self.fur_m(part.material, size) }
     }
 
-    /// How large an instance's mesh is in its rest pose.
+    /// A sphere around a part of an instance of that size, as it is posed, and its fur. Too large rather than too small.
+    pub fn posed_sphere(&self, part: Part, instance: &Instance, size: Size) -> Sphere {
+        let primitive = &self.asset.meshes[part.mesh].primitives[part.primitive];
+        let mut boxes = self.joint_boxes.lock().unwrap_or_else(PoisonError::into_inner);
+        let boxes = boxes.entry((part.mesh, part.primitive)).or_insert_with(|| JointBoxes::of(primitive));
+        let bounds = boxes.posed(&instance.joints, &instance.morph_weights);
+        let Sphere { center, radius } = bounds.transformed(instance.world_from_object).sphere();
+        Sphere { center, radius: radius + self.fur_m(part.material, size) }
+    }
+
+    /// How large an instance's mesh is: in the rest pose of its node, or as it stands where a host has placed it.
     pub fn size(&self, instance: &Instance) -> Size {
-        let mut sizes = self.sizes.lock().unwrap_or_else(PoisonError::into_inner);
-        let make = || {
-            let meshes = &self.asset.meshes[instance.mesh].primitives;
-            let positions = meshes.iter().flat_map(|primitive| &primitive.vertices.positions);
-            let bounds = Aabb::around(positions.copied());
-            Size {
-                rest_radius: bounds.half_extent().length().max(f32::MIN_POSITIVE),
-                world_from_rest: object_scale(&self.asset, instance.node),
-            }
+        let measure = |world_from_rest| {
+            let primitives = &self.asset.meshes[instance.mesh].primitives;
+            let positions = primitives.iter().flat_map(|primitive| &primitive.vertices.positions);
+            let rest_radius = Aabb::around(positions.copied()).half_extent().length().max(f32::MIN_POSITIVE);
+            Size { rest_radius, world_from_rest }
         };
-        *sizes.entry(instance.node).or_insert_with(make)
+        let Some(node) = instance.node else {
+            let Instance { mesh, world_from_object, joints, morph_weights, .. } = instance;
+            return measure(world_scale(&self.asset, *mesh, *world_from_object, joints, morph_weights));
+        };
+        let mut sizes = self.sizes.lock().unwrap_or_else(PoisonError::into_inner);
+        *sizes.entry(node).or_insert_with(|| measure(object_scale(&self.asset, node)))
     }
 
-    /// The patches of an instance's triangles.
-    pub fn patches(&self, instance: &Instance) -> Arc<Patches> {
-        let mut patches = self.patches.lock().unwrap_or_else(PoisonError::into_inner);
-        let make = || Arc::new(Patches::of(&self.asset.meshes[instance.mesh].primitives[instance.primitive]));
-        patches.entry((instance.mesh, instance.primitive)).or_insert_with(make).clone()
+    /// The depth-sorting clusters of a primitive's triangles.
+    pub fn clusters(&self, mesh: usize, primitive: usize) -> Arc<Clusters> {
+        let mut clusters = self.clusters.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Arc::new(Clusters::of(&self.asset.meshes[mesh].primitives[primitive]));
+        clusters.entry((mesh, primitive)).or_insert_with(make).clone()
+    }
+}
+
+/// Of parameters that are set one by one.
+struct NoTextures;
+
+impl TextureSource for NoTextures {
+    fn texture(&mut self, _: &ImageName) -> Result<usize, String> {
+        Err("textures are not set one by one; put them on with a look".to_owned())
     }
 }
 
@@ -328,7 +409,7 @@ fn add_missing_tangents(asset: &mut Asset, materials: &[Material], budget: &mut 
             let map = used().find_map(|Material { standard, .. }| {
                 standard.normal_texture.or(standard.detail_normal_texture).or(standard.detail_albedo_texture)
             });
-            let is_woven = used().any(|material| material.cloth.is_some());
+            let is_woven = used().any(|material| material.family.is_some());
             if !primitive.vertices.tangents.is_empty() || map.is_none() && !is_woven {
                 continue;
             }

@@ -1,10 +1,10 @@
 //! Shadow maps: which lights have one, and what each looks at.
 //!
-//! A directional light looks at the ball around what the camera can see of the scene, along parallel rays; where the
-//! camera stands so close that near things would be coarse, up to three balls ahead of it, each four times the one before
-//! (Engel 2006, "Cascaded Shadow Maps"). A ball looks the same from everywhere, and its middle moves by whole texels, so
+//! A directional light looks at the sphere around what the camera can see of the scene, along parallel rays; where the
+//! camera stands so close that near things would be coarse, up to three spheres ahead of it, each four times the one before
+//! (Engel 2006, "Cascaded Shadow Maps"). A sphere looks the same from everywhere, and its middle moves by whole texels, so
 //! that a turning or moving camera does not make shadows swim (Valient 2007, "Stable Rendering of Cascaded Shadow Maps").
-//! A light with a place looks at the scene's ball or along its cone, whichever is narrower.
+//! A light with a place looks at the scene's sphere or along its cone, whichever is narrower.
 
 use super::{Camera, Light, LightKind};
 use crate::math::{Hull, Sphere, orthographic, orthonormal_frame, perspective};
@@ -52,15 +52,15 @@ pub struct ShadowMaps {
     pub without: Vec<usize>,
 }
 
-/// The ball around an outline; `None` where it has no size.
-pub fn ball(outline: &Hull) -> Option<Sphere> {
+/// The sphere around an outline; `None` where it has no size.
+pub fn bounding_sphere(outline: &Hull) -> Option<Sphere> {
     let center = outline.bounds().center();
     let radius = outline.points().iter().map(|point| point.distance(center)).fold(0.0, f32::max) * OUTLINE_MARGIN;
     (radius > 0.0 && radius.is_finite() && center.is_finite()).then_some(Sphere { center, radius })
 }
 
 /// Maps of `resolution_px` texels a side for the lights for which `casts` holds, as long as there are maps left; `scene` is
-/// the ball around all that casts or receives a shadow.
+/// the sphere around all that casts or receives a shadow.
 pub fn shadow_maps(
     lights: &[Light],
     casts: impl Fn(usize) -> bool,
@@ -72,8 +72,8 @@ pub fn shadow_maps(
     for (index, light) in lights.iter().enumerate().filter(|(index, _)| casts(*index)) {
         let maps: Vec<ShadowMap> = match light.kind {
             LightKind::Directional => {
-                let balls = cascades(scene, camera);
-                balls.into_iter().filter_map(|shown| parallel(index, light, shown, scene, resolution_px)).collect()
+                let spheres = cascades(scene, camera);
+                spheres.into_iter().filter_map(|shown| parallel(index, light, shown, scene, resolution_px)).collect()
             }
             LightKind::Point | LightKind::Spot { .. } => {
                 in_perspective(index, light, scene, resolution_px).into_iter().collect()
@@ -99,7 +99,7 @@ fn cascades(scene: Sphere, camera: &Camera) -> Vec<Sphere> {
     }
     // Powers of two: how far cascades reach must not follow every move of the camera.
     let reach_m = farthest_m.log2().ceil().exp2();
-    let mut balls = Vec::new();
+    let mut spheres = Vec::new();
     for step in (0..MOST_CASCADES).rev() {
         let far_m = reach_m * CASCADE_RATIO.powi(-step);
         let near_m = if step == MOST_CASCADES - 1 { 0.0 } else { far_m / CASCADE_RATIO };
@@ -112,10 +112,10 @@ fn cascades(scene: Sphere, camera: &Camera) -> Vec<Sphere> {
         let smaller = if shown.radius < scene.radius { shown } else { scene };
         // A cascade that is hardly finer than the whole is not worth its map.
         if is_last || smaller.radius < 0.5 * scene.radius {
-            balls.push(smaller);
+            spheres.push(smaller);
         }
     }
-    balls
+    spheres
 }
 
 /// The largest power of two up to a length; 0 for none.
@@ -123,7 +123,7 @@ fn floor_to_power(length_m: f32) -> f32 {
     if length_m > 0.0 { length_m.log2().floor().exp2() } else { 0.0 }
 }
 
-/// The ball around the part of a camera's view between two depths; `slope` is that of the view's corners.
+/// The sphere around the part of a camera's view between two depths; `slope` is that of the view's corners.
 fn slice(camera: &Camera, near_m: f32, far_m: f32, slope: f32) -> Sphere {
     // As far from the near corners as from the far ones, unless the far ones alone decide.
     let middle_m = (0.5 * (near_m + far_m) * (1.0 + slope * slope)).min(far_m);
@@ -133,7 +133,7 @@ fn slice(camera: &Camera, near_m: f32, far_m: f32, slope: f32) -> Sphere {
     }
 }
 
-/// The map of a directional light that shows a ball and all that stands before it.
+/// The map of a directional light that shows a sphere and all that stands before it.
 fn parallel(index: usize, light: &Light, shown: Sphere, scene: Sphere, resolution_px: u32) -> Option<ShadowMap> {
     let direction = light.direction_to_light_in_world;
     let frame = orthonormal_frame(direction);
@@ -302,8 +302,8 @@ mod tests {
 
     #[test]
     fn nothing_without_size_and_no_light_amid_the_scene_has_a_map() {
-        assert_eq!(ball(&Hull::default()), None);
-        assert_eq!(ball(&Hull::of_box(Aabb::around([Vec3::ONE]))), None);
+        assert_eq!(bounding_sphere(&Hull::default()), None);
+        assert_eq!(bounding_sphere(&Hull::of_box(Aabb::around([Vec3::ONE]))), None);
         let scene = Sphere { center: Vec3::ZERO, radius: 1.0 };
         let camera = view(scene, 3.0, 0.0);
         let amid = Light { kind: LightKind::Point, position_in_world: Vec3::ZERO, ..Light::key() };

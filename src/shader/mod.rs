@@ -1,13 +1,18 @@
 //! The compiled shaders and what they ask of a pipeline.
 //!
 //! `build.rs` compiles every line of `shaders_glsl/permutations` to SPIR-V, reflects it and writes
-//! the two generated modules here: [`table`] (one [`Shader`] per permutation) and [`layout`] (one
-//! `repr(C)` struct per uniform, storage or push-constant block, with offset asserts).
+//! what is generated here: [`table`] (one [`Shader`] per permutation), the types of [`ShaderKey`] that name them, and
+//! [`layout`] (one `repr(C)` struct per uniform, storage or push-constant block, with offset asserts).
 
 #[cfg(feature = "measure")]
 pub mod function;
+mod key;
 pub mod layout;
+mod spirv;
 pub mod table;
+
+pub use key::{Defines, ShaderFile, ShaderKey};
+pub use spirv::{Pack, Spirv};
 
 /// One compiled permutation: SPIR-V and its interface.
 #[derive(Debug)]
@@ -16,8 +21,10 @@ pub struct Shader {
     pub name: &'static str,
     /// Stage.
     pub stage: Stage,
-    /// SPIR-V, little-endian words; the entry point is `main`.
-    pub spirv: &'static [u8],
+    /// Where its SPIR-V is; [`Self::spirv`] gives it.
+    pub spirv: Spirv,
+    /// Tells apart what was compiled: FNV-1a of the words' bytes.
+    pub spirv_hash: u64,
     /// Descriptors, ordered by (set, binding).
     pub bindings: &'static [Binding],
     /// Bytes of push constants, 0 without.
@@ -28,6 +35,14 @@ pub struct Shader {
     pub inputs: &'static [VertexInput],
     /// Workgroup size of a compute shader, otherwise 0.
     pub workgroup_size: [u32; 3],
+}
+
+impl Shader {
+    /// SPIR-V; the entry point is `main`. Shaders of a file are unpacked together when one is first asked for, which
+    /// takes some milliseconds.
+    pub fn spirv(&self) -> &'static [u32] {
+        self.spirv.words()
+    }
 }
 
 /// Pipeline stage.

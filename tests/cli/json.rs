@@ -48,7 +48,10 @@ fn inspect() {
     has(&report, &["/textures/0/name", "/textures/0/format", "/textures/0/bytes", "/left_out/0/what", "/lint"]);
     has(&report, &["/attachments/0/name", "/memory/by_owner/depth", "/pipelines/0/state/bindings", "/left_out/0/why"]);
     let names: Vec<_> = report["pipelines"].as_array().unwrap().iter().map(|pipeline| &pipeline["name"]).collect();
-    assert!(names.iter().any(|name| name.as_str().is_some_and(|name| name.starts_with("tonemap.frag"))), "{names:?}");
+    assert!(
+        names.iter().any(|name| name.as_str().is_some_and(|name| name.starts_with("tone_mapping.frag"))),
+        "{names:?}"
+    );
     // 1280 x 720: 8 bytes of colour and 4 of depth at 4 samples, 8 resolved, 4 of picture.
     assert_eq!(report["memory"]["target_bytes"], 1280 * 720 * (4 * 12 + 8 + 4));
     assert!(folder.run(["inspect", "quad.gltf"]).success().text().starts_with("passes\n"));

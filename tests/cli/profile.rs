@@ -3,7 +3,7 @@
 use crate::program::{SMALL, with_quad};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use vair::profile::FamilyProfile;
+use vair::measure::profile::FamilyProfile;
 
 const FRAMES: usize = 3;
 
@@ -32,7 +32,7 @@ fn the_object_has_times_counts_memory_and_starts() {
     phases.iter().for_each(|phase| is_spread(&profile["ms"]["cpu"][phase]));
 
     let passes = profile["passes"].as_array().unwrap();
-    assert_eq!(passes.iter().map(|pass| &pass["name"]).collect::<Vec<_>>(), ["opaque", "fur", "tonemap"]);
+    assert_eq!(passes.iter().map(|pass| &pass["name"]).collect::<Vec<_>>(), ["opaque", "fur", "tone mapping"]);
     for pass in passes {
         is_spread(&pass["gpu_ms"]);
         let [shaded, rasterized, covered] =
@@ -115,7 +115,7 @@ fn the_trace_is_complete_in_order_and_nested() {
     }
     assert_eq!(device.len(), FRAMES * 3);
     let mut last_end = 0;
-    for (event, name) in device.iter().zip(["opaque", "fur", "tonemap"].iter().cycle()) {
+    for (event, name) in device.iter().zip(["opaque", "fur", "tone mapping"].iter().cycle()) {
         assert_eq!(event["name"], *name);
         let [start, end] = interval(event);
         assert!(last_end <= start, "{event}");

@@ -2,7 +2,7 @@
 
 use crate::hostile::assert_promises;
 use std::path::{Path, PathBuf};
-use vair::asset::{LoadOptions, load};
+use vair::asset::{LoadOptions, check, load};
 
 fn shared_assets() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assets");
@@ -73,5 +73,16 @@ fn generated_tangents_have_the_handedness_of_real_files() {
         });
         let share = agree.count() as f32 / theirs.indices.len() as f32;
         assert!(share > 0.99, "{name}: {share}");
+    }
+}
+
+#[test]
+fn what_loads_keeps_every_promise() {
+    let Some(folder) = shared_assets() else { return println!("no shared models: nothing to check") };
+    let mut models = Vec::new();
+    collect_models(&folder, &mut models);
+    for path in &models {
+        let asset = load(path, &LoadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+        check(&asset).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     }
 }

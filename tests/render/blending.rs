@@ -5,7 +5,7 @@ use crate::limit::{all_hold, close};
 use crate::stage::{NEAREST, Stage, at, options, quad, unlit};
 use glam::{DVec3, Vec3, Vec4};
 use vair::asset::{AlphaMode, Material, Sampler, Wrap};
-use vair::material::reference::color::srgb_from_linear;
+use vair::measure::twin::color::srgb_from_linear;
 use vair::render::{Background, FrameOptions};
 use vair::scene::Scene;
 

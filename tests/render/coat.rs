@@ -7,10 +7,10 @@ use crate::shells::{height_coat, same_height, shown_height};
 use crate::stage::{NEAREST, Stage, at, options, plain, quad};
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use vair::asset::Primitive;
-use vair::material::reference::strand::threshold;
-use vair::material::reference::uv::projected;
 use vair::material::{Fur, Length, Shape};
-use vair::render::{FrameOptions, Picture, Shot};
+use vair::measure::twin::strand::threshold;
+use vair::measure::twin::uv::projected;
+use vair::render::{FrameOptions, FrameSetup, Picture};
 use vair::scene::Scene;
 
 /// Texels a side; each is a block of 4 x 4 pixels, whose middle lies in no 2 x 2 group with another block.
@@ -252,7 +252,7 @@ fn values_do_not_make_pipelines_and_unused_maps_are_not_loaded() {
     let plan = |fur: Fur| {
         let mut scene = seen_from_above(Fur::default());
         scene.materials_mut()[0].fur = Some(fur);
-        Shot::new(&scene, &frame(1)).unwrap_or_else(|error| panic!("{error}")).plan
+        FrameSetup::new(&scene, &frame(1)).unwrap_or_else(|error| panic!("{error}")).staging.plan
     };
     let base = plan(Fur::default());
     let other = Fur {

@@ -8,7 +8,8 @@ use crate::stage::{NEAREST, Stage, at, options, plain, quad};
 use glam::{Vec3, Vec4};
 use vair::asset::{AlphaMode, Material};
 use vair::material::Fur;
-use vair::render::{FrameOptions, Pass, PassFragments, ShellOrder, Shells};
+use vair::measure::{PassFragments, count_fragments};
+use vair::render::{FrameOptions, Pass, ShellOrder, Shells};
 use vair::scene::Scene;
 
 const SIDE: u32 = 16;
@@ -16,7 +17,7 @@ const PIXELS: u64 = (SIDE * SIDE) as u64;
 
 /// Rasterized, shaded and covered of a pass.
 fn count(device: &mut Headless, scene: &Scene, frame: &FrameOptions, pass: Pass) -> [u64; 3] {
-    let counts = device.renderer.count_fragments(scene, frame).unwrap_or_else(|error| panic!("{error}"));
+    let counts = count_fragments(&mut device.renderer, scene, frame).unwrap_or_else(|error| panic!("{error}"));
     let found = counts.into_iter().find(|counted| counted.pass == pass);
     let PassFragments { rasterized, shaded, covered_pixels, .. } = found.unwrap_or_else(|| panic!("no {pass:?}"));
     [rasterized, shaded, covered_pixels]
@@ -56,10 +57,10 @@ fn what_blends_hides_nothing_and_is_hidden() {
     headless(|device| {
         let pair = squares(&[(blended(), 1.0), (blended(), 2.0)]);
         assert_eq!(count(device, &pair, &frame, Pass::Opaque), [0, 0, 0]);
-        assert_eq!(count(device, &pair, &frame, Pass::Transparent), [2 * PIXELS, 2 * PIXELS, PIXELS]);
+        assert_eq!(count(device, &pair, &frame, Pass::OitBuild), [2 * PIXELS, 2 * PIXELS, PIXELS]);
         let hidden = squares(&[(plain(), 1.0), (blended(), 0.0)]);
-        assert_eq!(count(device, &hidden, &frame, Pass::Transparent), [PIXELS, 0, 0]);
-        assert_eq!(count(device, &hidden, &frame, Pass::Tonemap), [PIXELS; 3]);
+        assert_eq!(count(device, &hidden, &frame, Pass::OitBuild), [PIXELS, 0, 0]);
+        assert_eq!(count(device, &hidden, &frame, Pass::ToneMapping), [PIXELS; 3]);
     });
 }
 
@@ -114,7 +115,7 @@ fn the_outermost_shell_first_hides_the_others() {
         let closed = coated(height_coat(), true);
         assert_eq!(count(device, &closed, &outer, Pass::Fur), [all, PIXELS, PIXELS]);
         assert_eq!(count(device, &closed, &inner, Pass::Fur), [all, all, PIXELS]);
-        assert_eq!(count(device, &closed, &blended, Pass::Transparent), [all, all, PIXELS]);
+        assert_eq!(count(device, &closed, &blended, Pass::OitBuild), [all, all, PIXELS]);
         // Between strands one sees further down.
         let open = coated(Fur { layers, force_strength: 0.0, ..Fur::default() }, false);
         let [rasterized, shaded, covered] = count(device, &open, &outer, Pass::Fur);
@@ -139,9 +140,10 @@ fn counted_pixels_are_those_of_the_picture() {
             // Counting leaves the picture as it is.
             let scene = fur_ball();
             let before = device.picture(&scene, &frame);
-            let first = device.renderer.count_fragments(&scene, &frame).unwrap_or_else(|error| panic!("{error}"));
+            let first = count_fragments(&mut device.renderer, &scene, &frame).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(device.picture(&scene, &frame).rgba, before.rgba);
-            let second = device.renderer.count_fragments(&scene, &frame).unwrap_or_else(|error| panic!("{error}"));
+            let second =
+                count_fragments(&mut device.renderer, &scene, &frame).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(first, second);
         }
     });

@@ -1,4 +1,4 @@
-//! What surfaces show of their surroundings: nothing of themselves where they are white and all is alike, the environment as
+//! What surfaces show of their environment: nothing of themselves where they are white and all is alike, the environment as
 //! it is turned, and otherwise what the twin's lobe gathers of it.
 
 use crate::headless::headless;
@@ -9,38 +9,38 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use vair::asset::procedural::sphere;
 use vair::asset::{Environment, Material, Transform};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::anisotropy::Lobe;
-use vair::material::reference::layered::widths;
-use vair::material::{Cloth, Cotton, Gauze, Glint, Laser, Layered, Satin, SheenModel, Velvet};
+use vair::material::{Cotton, Family, Gauze, Glint, Laser, Layered, Satin, SheenModel, Velvet};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::anisotropy::Lobe;
+use vair::measure::twin::layered::widths;
 use vair::render::FrameOptions;
-use vair::scene::{Scene, Surroundings};
+use vair::scene::{EnvironmentLight, Scene};
 
 /// White clothes of every family; none is the standard surface.
-fn white_cloths() -> Vec<Option<Cloth>> {
+fn white_cloths() -> Vec<Option<Family>> {
     let white = Vec3::ONE;
     let layered = Layered::default();
     let sheens = [SheenModel::Ltc, SheenModel::Charlie, SheenModel::Inverted];
     let mut cloths = vec![
         None,
-        Some(Cloth::Satin(Satin::default())),
-        Some(Cloth::Satin(Satin { two_way: true, anisotropy: -0.9, ..Satin::default() })),
-        Some(Cloth::Glint(Glint { flake_color: white, color_variation: 0.0, ..Glint::default() })),
-        Some(Cloth::Laser(Laser { saturation: 0.0, ..Laser::default() })),
-        Some(Cloth::Gauze(Gauze { weave_density: 0.0, ..Gauze::default() })),
-        Some(Cloth::Layered(Layered { anisotropy: 0.9, anisotropy_rotation: 30.0, ..layered.clone() })),
-        Some(Cloth::Layered(Layered { clearcoat: 1.0, clearcoat_roughness: 0.3, ..layered.clone() })),
-        Some(Cloth::Layered(Layered { diffuse_transmission: 0.7, ..layered })),
+        Some(Family::Satin(Satin::default())),
+        Some(Family::Satin(Satin { two_way: true, anisotropy: -0.9, ..Satin::default() })),
+        Some(Family::Glint(Glint { flake_color: white, color_variation: 0.0, ..Glint::default() })),
+        Some(Family::Laser(Laser { saturation: 0.0, ..Laser::default() })),
+        Some(Family::Gauze(Gauze { weave_density: 0.0, ..Gauze::default() })),
+        Some(Family::Layered(Layered { anisotropy: 0.9, anisotropy_rotation: 30.0, ..layered.clone() })),
+        Some(Family::Layered(Layered { clearcoat: 1.0, clearcoat_roughness: 0.3, ..layered.clone() })),
+        Some(Family::Layered(Layered { diffuse_transmission: 0.7, ..layered })),
     ];
     for sheen in sheens {
-        cloths.push(Some(Cloth::Cotton(Cotton { sheen, sheen_color: white, ..Cotton::default() })));
-        cloths.push(Some(Cloth::Velvet(Velvet { sheen, ..Velvet::default() })));
+        cloths.push(Some(Family::Cotton(Cotton { sheen, sheen_color: white, ..Cotton::default() })));
+        cloths.push(Some(Family::Velvet(Velvet { sheen, ..Velvet::default() })));
     }
     cloths
 }
 
-fn in_surroundings(surroundings: Surroundings, size: [u32; 2]) -> FrameOptions {
-    FrameOptions { surroundings, ..options(size, 4) }
+fn lit_by(environment: EnvironmentLight, size: [u32; 2]) -> FrameOptions {
+    FrameOptions { environment, ..options(size, 4) }
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn white_in_a_furnace_disappears() {
             let mut cloths = Vec::new();
             for (column, roughness) in [0.0, 0.2, 0.5, 1.0].into_iter().enumerate() {
                 // A metal has no base under its fuzz, which alone is not white.
-                let metal = if matches!(cloth, Some(Cloth::Cotton(_) | Cloth::Velvet(_))) { 0.0 } else { 1.0 };
+                let metal = if matches!(cloth, Some(Family::Cotton(_) | Family::Velvet(_))) { 0.0 } else { 1.0 };
                 for (row, metallic) in [0.0, metal].into_iter().enumerate() {
                     cloths.push(stage.material(Material { base_color: Vec4::ONE, roughness, metallic, ..plain() }));
                     let place = Vec3::new(column as f32 * 0.9 - 1.35, row as f32 - 0.5, 0.0);
@@ -62,9 +62,9 @@ fn white_in_a_furnace_disappears() {
             }
             let mut scene = stage.scene();
             for material in cloths {
-                scene.materials_mut()[material].cloth.clone_from(&cloth);
+                scene.materials_mut()[material].family.clone_from(&cloth);
             }
-            let picture = device.picture(&scene, &in_surroundings(Surroundings::constant(light), [128, 64]));
+            let picture = device.picture(&scene, &lit_by(EnvironmentLight::constant(light), [128, 64]));
             // Where something is, its share of the light: least and most. Edges are premultiplied by their coverage.
             let pixels = (0..128 * 64).map(|at| picture.radiance(at % 128, at / 128)).filter(|pixel| pixel.w > 0.2);
             let shares: Vec<Vec3> = pixels.map(|pixel| pixel.truncate() / (light * pixel.w)).collect();
@@ -90,7 +90,7 @@ impl Lamp {
         DVec3::new(0.9, 0.7, 0.4) * lamp + DVec3::new(0.1, 0.15, 0.2) * (1.0 + 0.5 * w.y)
     }
 
-    fn surroundings(&self, rotation_deg: f32) -> Surroundings {
+    fn environment(&self, rotation_deg: f32) -> EnvironmentLight {
         let size = [256u32, 128];
         let texel = |index: u32| {
             let azimuth = (f64::from(index % size[0]) + 0.5) / f64::from(size[0]) * TAU - PI;
@@ -100,7 +100,7 @@ impl Lamp {
         };
         let texels = (0..size[0] * size[1]).map(texel).collect();
         let environment = Arc::new(Environment { name: "lamp".to_owned(), size, texels });
-        Surroundings { rotation_deg, ..Surroundings::new(environment) }
+        EnvironmentLight { rotation_deg, ..EnvironmentLight::new(environment) }
     }
 }
 
@@ -118,12 +118,9 @@ fn turning_the_environment_is_turning_everything_else() {
         let mut checks = Vec::new();
         for roughness in [0.1, 0.5, 1.0] {
             // Right-handed about +Y: what stood at +Z stands at +X.
-            let turned =
-                device.picture(&seen_from(Vec3::X, roughness), &in_surroundings(lamp.surroundings(90.0), [32, 32]));
-            let still =
-                device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(0.0), [32, 32]));
-            let wrong_way =
-                device.picture(&seen_from(Vec3::Z, roughness), &in_surroundings(lamp.surroundings(180.0), [32, 32]));
+            let turned = device.picture(&seen_from(Vec3::X, roughness), &lit_by(lamp.environment(90.0), [32, 32]));
+            let still = device.picture(&seen_from(Vec3::Z, roughness), &lit_by(lamp.environment(0.0), [32, 32]));
+            let wrong_way = device.picture(&seen_from(Vec3::Z, roughness), &lit_by(lamp.environment(180.0), [32, 32]));
             let off = |one: &vair::render::Picture, other: &vair::render::Picture| {
                 let pixels = (8..24).flat_map(|y| (8..24).map(move |x| (x, y)));
                 pixels.map(|(x, y)| (one.radiance(x, y) - other.radiance(x, y)).abs().max_element()).fold(0.0, f32::max)
@@ -146,7 +143,7 @@ fn streaked(roughness: f32, anisotropy: f32, rotation_deg: f32, tilt_deg: f32) -
     stage.object(quad(4.0, 0.8), material, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
     let mut scene = stage.scene();
     let layered = Layered { anisotropy, anisotropy_rotation: rotation_deg, ..Layered::default() };
-    scene.materials_mut()[material].cloth = Some(Cloth::Layered(layered));
+    scene.materials_mut()[material].family = Some(Family::Layered(layered));
     scene
 }
 
@@ -168,7 +165,7 @@ fn gathered(lamp: &Lamp, roughness: f32, anisotropy: f32, rotation_deg: f32, til
         let h = DVec3::new(ax * cap.x, ay * cap.y, cap.z).normalize();
         let l = 2.0 * v.dot(h) * h - v;
         if l.z > 0.0 {
-            let weight = vair::material::reference::ggx::masking_shadowing_times_cosine(v, l, ax, ay);
+            let weight = vair::measure::twin::ggx::masking_shadowing_times_cosine(v, l, ax, ay);
             sum += weight * lamp.radiance(world_from_tangent * l);
             all += weight;
         }
@@ -187,7 +184,7 @@ fn a_streak_bends_with_the_tangent_and_is_as_bright_as_its_lobe() {
                 let mut both = Vec::new();
                 for rotation_deg in [0.0, 90.0] {
                     let scene = streaked(roughness, 0.8, rotation_deg, tilt_deg);
-                    let picture = device.picture(&scene, &in_surroundings(lamp.surroundings(0.0), [4, 4]));
+                    let picture = device.picture(&scene, &lit_by(lamp.environment(0.0), [4, 4]));
                     let found = picture.radiance(2, 2).truncate().as_dvec3();
                     let wanted = gathered(&lamp, roughness, 0.8, rotation_deg, tilt_deg);
                     // What the split itself is off by: tests/environment_lobe.rs.

@@ -9,11 +9,11 @@ use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::classic::{cotton as classic_cotton, velvet as classic_velvet};
-use vair::material::reference::fuzz::{COTTON_F0, Surface};
-use vair::material::reference::sheen::Lobe;
-use vair::material::{Cloth, Cotton, Sheen, SheenModel, SheenTable, Velvet};
-use vair::render::{Picture, Shot};
+use vair::material::{Cotton, Family, Sheen, SheenModel, SheenTable, Velvet};
+use vair::measure::twin::classic::{cotton as classic_cotton, velvet as classic_velvet};
+use vair::measure::twin::fuzz::{COTTON_F0, Surface};
+use vair::measure::twin::sheen::Lobe;
+use vair::render::{FrameSetup, Picture};
 use vair::scene::Scene;
 
 const MODELS: [SheenModel; 3] = [SheenModel::Ltc, SheenModel::Charlie, SheenModel::Inverted];
@@ -24,7 +24,7 @@ const TABLE: f64 = 1e-3;
 
 /// One cloth, how it is seen, and its radiance in double precision: view, light -> BRDF times cosine, and ambient.
 struct Cell {
-    cloth: Cloth,
+    family: Family,
     material: Material,
     view_deg: f32,
 }
@@ -69,8 +69,8 @@ fn radiance(table: &SheenTable, cell: &Cell, v: DVec3, l: DVec3, irradiance: DVe
     let material = &cell.material;
     let base = color(material.base_color);
     let per_channel = |value: &dyn Fn(usize) -> f64| DVec3::new(value(0), value(1), value(2));
-    match &cell.cloth {
-        Cloth::Cotton(cotton) if cotton.classic => {
+    match &cell.family {
+        Family::Cotton(cotton) if cotton.classic => {
             let entry = |roughness: f32| table.at(Sheen::Classic, v.z, roughness.into()).albedo;
             // The base is dimmed by the largest channel of the sheen, the lobe has each channel's own.
             let sheen = cotton.sheen_color.as_dvec3();
@@ -93,7 +93,7 @@ fn radiance(table: &SheenTable, cell: &Cell, v: DVec3, l: DVec3, irradiance: DVe
                 irradiance[at] * lit + AMBIENT * ambient
             })
         }
-        Cloth::Velvet(velvet) if velvet.classic => per_channel(&|at| {
+        Family::Velvet(velvet) if velvet.classic => per_channel(&|at| {
             let metallic = f64::from(material.metallic);
             let twin = classic_velvet::Velvet {
                 base_color: base[at] * (1.0 - metallic),
@@ -106,8 +106,8 @@ fn radiance(table: &SheenTable, cell: &Cell, v: DVec3, l: DVec3, irradiance: DVe
         }),
         cloth => {
             let surface = match cloth {
-                Cloth::Cotton(cotton) => cotton_surface(table, cotton, material),
-                Cloth::Velvet(velvet) => velvet_surface(table, velvet, material),
+                Family::Cotton(cotton) => cotton_surface(table, cotton, material),
+                Family::Velvet(velvet) => velvet_surface(table, velvet, material),
                 other => panic!("{} has no fuzz", other.kind()),
             };
             surface.brdf_times_cosine(v, l) * irradiance + surface.ambient(v.z, 1.0) * AMBIENT
@@ -120,15 +120,15 @@ fn cells() -> Vec<Cell> {
     for view_deg in [0.0f32, 50.0, 80.0] {
         for roughness in [0.3, 0.9] {
             let material = Material { base_color: Vec4::new(0.8, 0.4, 0.05, 1.0), metallic: 0.7, roughness, ..plain() };
-            let mut cell = |cloth| cells.push(Cell { cloth, material: material.clone(), view_deg });
+            let mut cell = |cloth| cells.push(Cell { family: cloth, material: material.clone(), view_deg });
             let sheen_color = Vec3::new(0.9, 0.2, 0.5);
             for sheen in MODELS {
-                cell(Cloth::Cotton(Cotton { sheen, sheen_color, sheen_roughness: 0.45, ..Cotton::default() }));
-                cell(Cloth::Velvet(Velvet { sheen, scatter_color: sheen_color, ..Velvet::default() }));
+                cell(Family::Cotton(Cotton { sheen, sheen_color, sheen_roughness: 0.45, ..Cotton::default() }));
+                cell(Family::Velvet(Velvet { sheen, scatter_color: sheen_color, ..Velvet::default() }));
             }
-            cell(Cloth::Cotton(Cotton { sheen_color: Vec3::ZERO, ..Cotton::default() }));
-            cell(Cloth::Cotton(Cotton { classic: true, sheen_color, sheen_roughness: 0.4, ..Cotton::default() }));
-            cell(Cloth::Velvet(Velvet { classic: true, scatter_scale: 0.3, ..Velvet::default() }));
+            cell(Family::Cotton(Cotton { sheen_color: Vec3::ZERO, ..Cotton::default() }));
+            cell(Family::Cotton(Cotton { classic: true, sheen_color, sheen_roughness: 0.4, ..Cotton::default() }));
+            cell(Family::Velvet(Velvet { classic: true, scatter_scale: 0.3, ..Velvet::default() }));
         }
     }
     cells
@@ -153,7 +153,7 @@ fn check(device: &mut Headless, to_light: Vec3) -> Vec<Result<(), String>> {
     }
     let mut scene = stage.scene();
     for (material, cell) in scene.materials_mut().iter_mut().zip(&cells) {
-        material.cloth = Some(cell.cloth.clone());
+        material.family = Some(cell.family.clone());
     }
     let picture = device.picture(&scene, &options([128, 128], 1));
     let one = |(index, cell): (usize, &Cell)| {
@@ -161,7 +161,7 @@ fn check(device: &mut Headless, to_light: Vec3) -> Vec<Result<(), String>> {
         let rotation = tilt(cell.view_deg).inverse();
         let in_tangent = |w: Vec3| (rotation * w).as_dvec3();
         let expected = radiance(&table, cell, in_tangent(Vec3::Z), in_tangent(to_light), irradiance.as_dvec3());
-        let what = format!("{:?} roughness {} at {} degrees", cell.cloth, cell.material.roughness, cell.view_deg);
+        let what = format!("{:?} roughness {} at {} degrees", cell.family, cell.material.roughness, cell.view_deg);
         within(&what, picture.radiance(pixel[0], pixel[1]), expected, RELATIVE + TABLE, 1e-6)
     };
     cells.iter().enumerate().map(one).collect()
@@ -175,14 +175,14 @@ fn cloth_with_fuzz_has_the_computed_radiance() {
 }
 
 /// A facing quad of that cloth, with the ambient and one light.
-fn one_quad(dress: impl FnOnce(&mut Stage) -> Cloth, irradiance: Vec3, material: Material) -> Scene {
+fn one_quad(dress: impl FnOnce(&mut Stage) -> Family, irradiance: Vec3, material: Material) -> Scene {
     let mut stage = Stage::front(0.5);
     let cloth = dress(&mut stage);
     let index = stage.material(material);
     stage.object(quad(0.8, 0.8), index, at(Vec3::ZERO));
     stage.light(LightKind::Directional, irradiance, Vec3::ZERO, Vec3::new(0.8, 0.0, 0.6));
     let mut scene = stage.scene();
-    scene.materials_mut()[0].cloth = Some(cloth);
+    scene.materials_mut()[0].family = Some(cloth);
     scene
 }
 
@@ -200,10 +200,10 @@ fn lut_consistency() {
             let mapped = |stage: &mut Stage| {
                 // 0.4 = 102 / 255: data is not decoded.
                 let map = stage.texel([102, 0, 0, 255]);
-                Cloth::Cotton(Cotton { sheen_roughness: 1.0, sheen_roughness_map: Some(map), ..plain_cotton.clone() })
+                Family::Cotton(Cotton { sheen_roughness: 1.0, sheen_roughness_map: Some(map), ..plain_cotton.clone() })
             };
             let with_map = seen(device, &one_quad(mapped, Vec3::ONE, plain()));
-            let without = seen(device, &one_quad(|_| Cloth::Cotton(plain_cotton.clone()), Vec3::ONE, plain()));
+            let without = seen(device, &one_quad(|_| Family::Cotton(plain_cotton.clone()), Vec3::ONE, plain()));
             let (found, expected) = (with_map.radiance(2, 2), without.radiance(2, 2).truncate().as_dvec3());
             all_hold([within(&format!("{sheen:?} classic {classic}"), found, expected, RELATIVE, 1e-6)]);
         }
@@ -218,7 +218,7 @@ fn sheen_colours_are_decoded_and_sheen_maps_are_not() {
             let cotton = Cotton { sheen_color: Vec3::splat(0.8), ..Cotton::default() };
             let mapped = |stage: &mut Stage| {
                 let map = Some(stage.texel([128, 128, 128, 255]));
-                Cloth::Cotton(if is_color {
+                Family::Cotton(if is_color {
                     Cotton { sheen_color_texture: map, ..cotton.clone() }
                 } else {
                     Cotton { sheen_map: map, ..cotton.clone() }
@@ -235,10 +235,10 @@ fn sheen_colours_are_decoded_and_sheen_maps_are_not() {
 
 #[test]
 fn unlit_zero() {
-    let velvet = |classic| Cloth::Velvet(Velvet { classic, scatter_color: Vec3::ONE, ..Velvet::default() });
-    let cotton = Cloth::Cotton(Cotton { sheen_color: Vec3::ONE, ..Cotton::default() });
+    let velvet = |classic| Family::Velvet(Velvet { classic, scatter_color: Vec3::ONE, ..Velvet::default() });
+    let cotton = Family::Cotton(Cotton { sheen_color: Vec3::ONE, ..Cotton::default() });
     headless(|device| {
-        let mut of_light = |cloth: &Cloth, irradiance| {
+        let mut of_light = |cloth: &Family, irradiance| {
             let mut stage = Stage::front(0.5);
             let material = stage.material(plain());
             let turned = Transform::Trs { translation: Vec3::ZERO, rotation: tilt(60.0), scale: Vec3::ONE };
@@ -249,7 +249,7 @@ fn unlit_zero() {
             // Another light, so that the ambient is that of a file with lights.
             stage.light(LightKind::Directional, Vec3::ONE, Vec3::ZERO, Vec3::Y);
             let mut scene = stage.scene();
-            scene.materials_mut()[0].cloth = Some(cloth.clone());
+            scene.materials_mut()[0].family = Some(cloth.clone());
             seen(device, &scene).radiance(2, 2)
         };
         for cloth in [velvet(false), cotton] {
@@ -276,7 +276,7 @@ fn extremes_are_finite() {
                         ..Cotton::default()
                     };
                     let velvet = Velvet { sheen, classic, scatter_color: Vec3::ONE, ..Velvet::default() };
-                    for cloth in [Cloth::Cotton(cotton), Cloth::Velvet(velvet)] {
+                    for cloth in [Family::Cotton(cotton), Family::Velvet(velvet)] {
                         let scene = one_quad(|_| cloth.clone(), Vec3::splat(1e38), material.clone());
                         let shown = seen(device, &scene).radiance(2, 2);
                         assert!(shown.is_finite() && shown.min_element() >= 0.0, "{cloth:?} {roughness}: {shown}");
@@ -293,13 +293,13 @@ fn fibres_that_do_not_stand_cost_nothing() {
         one_quad(
             |stage| {
                 let map = Some(stage.texel([255; 4]));
-                Cloth::Cotton(Cotton { sheen_color, sheen_map: map, sheen_color_texture: map, ..Cotton::default() })
+                Family::Cotton(Cotton { sheen_color, sheen_map: map, sheen_color_texture: map, ..Cotton::default() })
             },
             Vec3::ONE,
             plain(),
         )
     };
-    let textures = |scene: &Scene| Shot::new(scene, &options([4, 4], 1)).unwrap().plan.textures.len();
+    let textures = |scene: &Scene| FrameSetup::new(scene, &options([4, 4], 1)).unwrap().staging.plan.textures.len();
     assert!(textures(&mapped(Vec3::ZERO)) < textures(&mapped(Vec3::ONE)));
 }
 
@@ -313,17 +313,17 @@ pub fn fuzz_balls() -> Scene {
         (
             Vec3::new(0.12, 0.16, 0.35),
             [
-                Cloth::Cotton(cotton.clone()),
-                Cloth::Cotton(Cotton { sheen: SheenModel::Charlie, ..cotton.clone() }),
-                Cloth::Cotton(Cotton { classic: true, ..cotton }),
+                Family::Cotton(cotton.clone()),
+                Family::Cotton(Cotton { sheen: SheenModel::Charlie, ..cotton.clone() }),
+                Family::Cotton(Cotton { classic: true, ..cotton }),
             ],
         ),
         (
             Vec3::new(0.07, 0.002, 0.012),
             [
-                Cloth::Velvet(velvet.clone()),
-                Cloth::Velvet(Velvet { sheen: SheenModel::Inverted, ..velvet.clone() }),
-                Cloth::Velvet(Velvet { classic: true, ..velvet }),
+                Family::Velvet(velvet.clone()),
+                Family::Velvet(Velvet { sheen: SheenModel::Inverted, ..velvet.clone() }),
+                Family::Velvet(Velvet { classic: true, ..velvet }),
             ],
         ),
     ];
@@ -338,6 +338,6 @@ pub fn fuzz_balls() -> Scene {
     three_lights(&mut stage);
     let mut scene = stage.scene();
     let cloths = rows.into_iter().flat_map(|(_, cloths)| cloths);
-    scene.materials_mut().iter_mut().zip(cloths).for_each(|(material, cloth)| material.cloth = Some(cloth));
+    scene.materials_mut().iter_mut().zip(cloths).for_each(|(material, cloth)| material.family = Some(cloth));
     scene
 }

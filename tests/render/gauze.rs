@@ -8,11 +8,11 @@ use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::anisotropy::Lobe;
-use vair::material::reference::{gauze as twin, ggx, satin};
-use vair::material::{Cloth, Gauze, Weave};
-use vair::render::Shot;
+use vair::material::{Family, Gauze, Weave};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::anisotropy::Lobe;
+use vair::measure::twin::{gauze as twin, ggx, satin};
+use vair::render::{FrameSetup, Pass};
 use vair::scene::Scene;
 
 const BASE_COLOR: Vec3 = Vec3::new(0.7, 0.4, 0.5);
@@ -33,7 +33,7 @@ fn one_quad(gauze: &Gauze, angle_deg: f32, to_light: Vec3) -> Scene {
     stage.light(LightKind::Directional, Vec3::ONE, Vec3::ZERO, to_light);
     let material = hang(&mut stage, angle_deg, 0.0);
     let mut scene = stage.scene();
-    scene.materials_mut()[material].cloth = Some(Cloth::Gauze(gauze.clone()));
+    scene.materials_mut()[material].family = Some(Family::Gauze(gauze.clone()));
     scene
 }
 
@@ -110,7 +110,7 @@ fn behind(folds: usize, angle_deg: f32) -> Scene {
     let mut scene = stage.scene();
     for sheet in sheets {
         let material = &mut scene.materials_mut()[sheet];
-        material.cloth = Some(Cloth::Gauze(Gauze { specular_strength: 0.0, ..Gauze::default() }));
+        material.family = Some(Family::Gauze(Gauze { specular_strength: 0.0, ..Gauze::default() }));
         material.standard.base_color = Vec4::new(0.0, 0.0, 0.0, 1.0);
     }
     scene
@@ -139,7 +139,7 @@ fn mapped(map: fn(&mut Gauze) -> &mut Option<vair::asset::TextureRef>, gauze: Ga
     let mut scene = stage.scene();
     let mut gauze = gauze;
     *map(&mut gauze) = Some(texture);
-    scene.materials_mut()[material].cloth = Some(Cloth::Gauze(gauze));
+    scene.materials_mut()[material].family = Some(Family::Gauze(gauze));
     scene
 }
 
@@ -169,15 +169,15 @@ fn maps_open_holes_and_turn_the_highlight() {
 
 #[test]
 fn opaque_gauze_does_not_blend_and_a_missing_map_is_not_bound() {
-    let shot = |gauze: &Gauze| {
+    let plan = |gauze: &Gauze| {
         let scene = one_quad(gauze, 0.0, Vec3::Z);
-        Shot::new(&scene, &options([4, 4], 1)).unwrap().plan
+        FrameSetup::new(&scene, &options([4, 4], 1)).unwrap().staging.plan
     };
-    let sheer = shot(&Gauze::default());
-    assert!(sheer.opaque.is_empty() && sheer.transparent.len() == 1, "both sides at once");
-    assert!(sheer.textures.is_empty() && sheer.stand_ins.is_empty());
-    let opaque = shot(&Gauze { weave_density: 0.0, ..Gauze::default() });
-    assert!(opaque.transparent.is_empty() && opaque.opaque.len() == 1);
+    let sheer = plan(&Gauze::default());
+    assert!(sheer.draws_of(Pass::Opaque).is_empty() && sheer.draws_of(Pass::OitBuild).len() == 1, "both sides at once");
+    assert!(sheer.textures.is_empty() && sheer.fallbacks.is_empty());
+    let opaque = plan(&Gauze { weave_density: 0.0, ..Gauze::default() });
+    assert!(opaque.draws_of(Pass::OitBuild).is_empty() && opaque.draws_of(Pass::Opaque).len() == 1);
 }
 
 /// Gauze over a striped wall: sheer, dense, cleared and crossed above; below: mesh, crossing threads, a ball in a ball, and
@@ -218,7 +218,7 @@ pub fn gauze_balls() -> Scene {
     three_lights(&mut stage);
     let mut scene = stage.scene();
     for (material, gauze) in materials.into_iter().zip(balls) {
-        scene.materials_mut()[material].cloth = Some(Cloth::Gauze(gauze));
+        scene.materials_mut()[material].family = Some(Family::Gauze(gauze));
     }
     scene
 }

@@ -7,13 +7,14 @@ use crate::surface::AMBIENT;
 use glam::{DVec2, DVec3, Quat, Vec3, Vec4};
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::ggx;
-use vair::material::reference::glint::{self, Covered, Footprint};
-use vair::material::reference::standard::Surface;
-use vair::material::{Cloth, Glint};
-use vair::render::Shot;
+use vair::material::{Family, Glint};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::ggx;
+use vair::measure::twin::glint::{self, Covered, Footprint};
+use vair::measure::twin::standard::Surface;
+use vair::render::{FrameSetup, PipelineSpec};
 use vair::scene::Scene;
+use vair::shader::{Defines, ShaderFile, ShaderKey};
 
 const TO_LIGHTS: [Vec3; 2] = [Vec3::new(0.1, 0.15, 0.98), Vec3::new(-0.3, 0.0, 0.95)];
 const CLOTH: Vec4 = Vec4::new(0.3, 0.05, 0.1, 1.0);
@@ -31,7 +32,7 @@ fn front(glint: Glint, half_m: f32, transform: Transform) -> Scene {
         stage.light(LightKind::Directional, Vec3::new(0.2, 0.3, 0.4), Vec3::ZERO, to_light.normalize());
     }
     let mut scene = stage.scene();
-    scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+    scene.materials_mut()[material].family = Some(Family::Glint(glint));
     scene
 }
 
@@ -60,7 +61,7 @@ pub fn glint_balls() -> Scene {
     three_lights(&mut stage);
     let mut scene = stage.scene();
     for (material, glint) in dressed {
-        scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+        scene.materials_mut()[material].family = Some(Family::Glint(glint));
     }
     scene
 }
@@ -142,7 +143,7 @@ fn flakes_turn_with_the_cloth() {
         stage.object(quad(1.0, 1.0), material, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
         stage.light(LightKind::Directional, Vec3::ONE, Vec3::ZERO, Vec3::Z);
         let mut scene = stage.scene();
-        scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint.clone()));
+        scene.materials_mut()[material].family = Some(Family::Glint(glint.clone()));
         scene
     };
     headless(|device| {
@@ -160,11 +161,11 @@ fn flakes_turn_with_the_cloth() {
 #[test]
 fn cloth_without_a_mask_fetches_nothing() {
     let scene = front(sequins(), 0.5, at(Vec3::ZERO));
-    let plan = Shot::new(&scene, &options([4, 4], 1)).unwrap().plan;
-    assert!(plan.textures.is_empty() && plan.stand_ins.is_empty());
-    assert!(
-        plan.pipelines[0].fragment == "glint.frag+TANGENT" && plan.pipelines[0].vertex == "standard.vert+TANGENT+REST"
-    );
+    let plan = FrameSetup::new(&scene, &options([4, 4], 1)).unwrap().staging.plan;
+    assert!(plan.textures.is_empty() && plan.fallbacks.is_empty());
+    let PipelineSpec { vertex, fragment, .. } = plan.pipelines[0];
+    assert_eq!(fragment, ShaderKey::new(ShaderFile::GlintFrag, Defines::TANGENT));
+    assert_eq!(vertex, ShaderKey::new(ShaderFile::StandardVert, Defines::TANGENT | Defines::REST));
 }
 
 #[test]
@@ -189,15 +190,15 @@ fn extremes_stay_finite() {
                     };
                     let mut stage = Stage::front(0.6);
                     let material = stage.material(Material { base_color: CLOTH, ..plain() });
-                    // Grazing at its rim.
+                    // Grazing at its rim, with tangents that lie along the normals.
                     let mut ball = sphere(0.5, 8);
-                    ball.vertices.tangents.iter_mut().for_each(|tangent| *tangent = Vec4::ZERO);
+                    ball.vertices.tangents = ball.vertices.normals.iter().map(|normal| normal.extend(1.0)).collect();
                     stage.object(ball, material, at(Vec3::ZERO));
                     for to_light in [Vec3::Z, Vec3::NEG_Z, Vec3::X] {
                         stage.light(LightKind::Directional, Vec3::splat(intensity), Vec3::ZERO, to_light);
                     }
                     let mut scene = stage.scene();
-                    scene.materials_mut()[material].cloth = Some(Cloth::Glint(glint));
+                    scene.materials_mut()[material].family = Some(Family::Glint(glint));
                     let picture = device.picture(&scene, &options([48, 48], 1));
                     let is_finite = |index: u32| picture.radiance(index % 48, index / 48).is_finite();
                     assert!((0..48 * 48).all(is_finite), "{density} {coverage} {roughness} {intensity}");

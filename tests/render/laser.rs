@@ -9,10 +9,10 @@ use glam::{DVec2, DVec3, Quat, Vec2, Vec3, Vec4};
 use std::f64::consts::PI;
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::standard::{Lobes, Surface};
-use vair::material::reference::{color, film, laser};
-use vair::material::{Cloth, ColorMode, FilmKind, HueCurve, HueDirection, Laser};
-use vair::render::Shot;
+use vair::material::{ColorMode, Family, FilmKind, HueCurve, HueDirection, Laser};
+use vair::measure::twin::standard::{Lobes, Surface};
+use vair::measure::twin::{color, film, laser};
+use vair::render::FrameSetup;
 use vair::scene::Scene;
 
 /// Texel of every map: a red hue, other offsets in R and G.
@@ -96,7 +96,7 @@ fn check_row(device: &mut Headless, metallic: f32, roughness: f32, view_deg: f32
     }
     let mut scene = stage.scene();
     for (material, cloth) in scene.materials_mut().iter_mut().zip(&cloths) {
-        material.cloth = Some(Cloth::Laser(cloth.clone()));
+        material.family = Some(Family::Laser(cloth.clone()));
     }
     let picture = device.picture(&scene, &options([16 * cloths.len() as u32, 16], 1));
     let in_tangent = |direction: Vec3| (tilt.inverse() * direction).as_dvec3();
@@ -130,8 +130,8 @@ fn maps_of_a_part_that_is_off_are_not_bound() {
         let material = stage.material(plain());
         stage.object(quad(0.5, 0.5), material, at(Vec3::ZERO));
         let mut scene = stage.scene();
-        scene.materials_mut()[material].cloth = Some(Cloth::Laser(dress(every)));
-        let plan = Shot::new(&scene, &options([8, 8], 1)).unwrap_or_else(|error| panic!("{error}")).plan;
+        scene.materials_mut()[material].family = Some(Family::Laser(dress(every)));
+        let plan = FrameSetup::new(&scene, &options([8, 8], 1)).unwrap_or_else(|error| panic!("{error}")).staging.plan;
         let constants = plan.pipelines.iter().flat_map(|spec| spec.constants.clone());
         constants
             .filter(|(name, value)| name.starts_with("HAS_") && *value == 1)
@@ -150,7 +150,7 @@ fn far_ball(radius_px: f32, shift_px: Vec2, classic: bool) -> Scene {
     stage.object(sphere(radius_px, 24), material, at(shift_px.extend(0.0)));
     let mut scene = stage.scene();
     let laser = Laser { hue_span: 5.0, saturation: 1.0, classic, ..Laser::default() };
-    scene.materials_mut()[material].cloth = Some(Cloth::Laser(laser));
+    scene.materials_mut()[material].family = Some(Family::Laser(laser));
     scene
 }
 
@@ -224,7 +224,7 @@ pub fn laser_balls() -> Scene {
     three_lights(&mut stage);
     let mut scene = stage.scene();
     for (material, (.., laser)) in scene.materials_mut().iter_mut().zip(balls) {
-        material.cloth = Some(Cloth::Laser(laser));
+        material.family = Some(Family::Laser(laser));
     }
     scene
 }
@@ -241,7 +241,7 @@ fn threads_run_the_same_way_on_the_back() {
         let mut scene = stage.scene();
         let directional = HueDirection::Value;
         let laser = Laser { directional, color_direction: 45.0, hue_span: 2.0, ..Laser::default() };
-        scene.materials_mut()[material].cloth = Some(Cloth::Laser(laser));
+        scene.materials_mut()[material].family = Some(Family::Laser(laser));
         device.picture(&scene, &options([4, 4], 1)).radiance(2, 2).truncate()
     };
     headless(|device| {

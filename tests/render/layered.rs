@@ -10,12 +10,12 @@ use vair::asset::{
     Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, LightKind, Material, MaterialExtensions, Sheen, Specular,
     TextureRef, Transform, Transmission,
 };
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::color::linear_from_srgb;
-use vair::material::reference::film;
-use vair::material::reference::layered::{Base, Parameters, Stack, coat, sheen_albedo, through};
-use vair::material::{Cloth, SheenTable};
-use vair::render::Shot;
+use vair::material::{Family, SheenTable};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::color::linear_from_srgb;
+use vair::measure::twin::film;
+use vair::measure::twin::layered::{Base, Parameters, Stack, clearcoat, sheen_albedo, through};
+use vair::render::FrameSetup;
 
 const GREY: f32 = 0.6;
 const IRRADIANCE: f64 = 0.25;
@@ -141,8 +141,8 @@ fn radiance(material: &Material, v: DVec3, l: DVec3) -> (DVec3, f64) {
         let entry = table.at(vair::material::Sheen::Charlie, v.z, fuzz.roughness.into());
         1.0 - f64::from(fuzz.color.x) * sheen_albedo(entry.albedo)
     });
-    let coat_left =
-        varnish.map_or(1.0, |layer| 1.0 - f64::from(layer.factor) * coat(layer.roughness.into()).albedo(&fit, v).x);
+    let coat_left = varnish
+        .map_or(1.0, |layer| 1.0 - f64::from(layer.factor) * clearcoat(layer.roughness.into()).albedo(&fit, v).x);
     let behind = through(straight, metallic, DVec3::splat(GREY.into()), base.lobe.albedo(&fit, v));
     // A picture has one opacity.
     let behind = behind.element_sum() / 3.0;
@@ -291,10 +291,11 @@ fn a_texture_says_the_same_as_its_factor() {
 fn maps_and_lobes_that_are_off_cost_nothing() {
     let switched_on = |extensions: MaterialExtensions| {
         let mut stage = Stage::front(0.5);
+        stage.texel(TEXEL);
         let material = stage.material(Material { extensions, ..plain() });
         stage.object(quad(0.5, 0.5), material, at(Vec3::ZERO));
         let scene = stage.scene();
-        let plan = Shot::new(&scene, &options([8, 8], 1)).unwrap_or_else(|error| panic!("{error}")).plan;
+        let plan = FrameSetup::new(&scene, &options([8, 8], 1)).unwrap_or_else(|error| panic!("{error}")).staging.plan;
         let constants = plan.pipelines.iter().flat_map(|spec| spec.constants.clone());
         let is_shared = |name: &str| ["ALPHA_MODE", "SAMPLE_COUNT", "DOUBLE_SIDED"].contains(&name);
         let on = constants.filter(|(name, value)| *value != 0 && !is_shared(name)).map(|(name, _)| name);
@@ -327,7 +328,7 @@ fn a_file_with_extensions_becomes_layered() {
     let material = stage.material(material);
     stage.object(quad(0.5, 0.5), material, at(Vec3::ZERO));
     let scene = stage.scene();
-    let Some(Cloth::Layered(layered)) = &scene.materials()[0].cloth else { panic!("layered") };
+    let Some(Family::Layered(layered)) = &scene.materials()[0].family else { panic!("layered") };
     assert_eq!((layered.clearcoat, layered.clearcoat_roughness, layered.anisotropy), (0.8, 0.3, 0.7));
     assert!((layered.anisotropy_rotation - 0.6f32.to_degrees()).abs() < 1e-4);
 }

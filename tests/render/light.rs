@@ -6,9 +6,9 @@ use crate::stage::{Stage, at, front_position, options, plain, quad};
 use crate::surface::{AMBIENT, radiance};
 use glam::{DVec3, Vec3};
 use vair::asset::{LightKind, Material};
-use vair::material::reference::light::{cone, range_window};
-use vair::material::reference::standard::Surface;
 use vair::material::{Fur, Length};
+use vair::measure::twin::light::{cone, range_window};
+use vair::measure::twin::standard::Surface;
 
 #[test]
 fn irradiance_follows_distance_range_and_cone() {

@@ -6,7 +6,7 @@ use crate::stage::{Stage, at, options, plain};
 use glam::{Quat, Vec3, Vec4};
 use vair::asset::procedural::{plane, sphere};
 use vair::asset::{Material, Primitive, Transform};
-use vair::material::{Blend, Cloth, Fur, Gauze, Length};
+use vair::material::{Blend, Family, Fur, Gauze, Length};
 use vair::scene::Scene;
 
 /// An object and what it is dressed in.
@@ -42,7 +42,7 @@ fn scene(layers: &[Layer], order: [usize; 3]) -> Scene {
         let material = &mut scene.materials_mut()[material];
         match dress {
             Dress::Plain => {}
-            Dress::Gauze => material.cloth = Some(Cloth::Gauze(Gauze { weave_density: 3.0, ..Gauze::default() })),
+            Dress::Gauze => material.family = Some(Family::Gauze(Gauze { weave_density: 3.0, ..Gauze::default() })),
             Dress::BlendedFur => {
                 let (length, strand_spacing) = (Length::Relative(0.2), Length::Relative(0.08));
                 material.fur = Some(Fur { blend: Blend::Blend, length, strand_spacing, layers: 4, ..Fur::default() });

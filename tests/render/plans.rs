@@ -1,14 +1,14 @@
 //! What a frame needs, and the whole state of each pipeline that it makes, as text: a change must be meant.
 
-use crate::deform::bent_tube;
 use crate::headless::headless;
 use crate::plan_text::plan_text;
 use crate::scenes::{fur_cube, plain_cube};
+use crate::skinning::bent_tube;
 use crate::stage::{NEAREST, Stage, at, options, plain, quad};
 use glam::Vec3;
 use vair::asset::Material;
 use vair::asset::procedural::GALLERY_CAMERA;
-use vair::render::{FrameOptions, Shot};
+use vair::render::{FrameOptions, FrameSetup};
 use vair::scene::{CameraChoice, Scene};
 
 /// A quad with a colour and a normal map.
@@ -23,12 +23,12 @@ pub fn textured_quad() -> Scene {
 }
 
 fn snapshot(name: &str, scene: &Scene, frame: &FrameOptions) {
-    let shot = Shot::new(scene, frame).unwrap_or_else(|error| panic!("{error}"));
+    let setup = FrameSetup::new(scene, frame).unwrap_or_else(|error| panic!("{error}"));
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path("../snapshots");
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(format!("plan-{name}"), plan_text(scene, &shot.plan)));
+    settings.bind(|| insta::assert_snapshot!(format!("plan-{name}"), plan_text(scene, &setup)));
     headless(|device| {
         device.picture(scene, &FrameOptions { size: [16, 16], ..frame.clone() });
         let pipelines = device.renderer.pipeline_descriptions().join("\n");

@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3, Vec4};
 use vair::asset::Material;
 use vair::gpu::{Memory, vk};
 use vair::material::Fur;
-use vair::material::reference::color::linear_from_srgb;
+use vair::measure::twin::color::linear_from_srgb;
 use vair::render::{FrameOptions, Picture};
 
 fn fur_golden() -> &'static Golden {

@@ -8,11 +8,12 @@ use crate::surface::AMBIENT;
 use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::procedural::sphere;
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::anisotropy::albedo_terms;
-use vair::material::reference::satin as twin;
-use vair::material::{Cloth, Satin};
+use vair::material::{Family, Satin};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::anisotropy::albedo_terms;
+use vair::measure::twin::satin as twin;
 use vair::scene::Scene;
+use vair::shader::ShaderFile;
 
 const BASE_COLOR: Vec3 = Vec3::new(0.5, 0.1, 0.3);
 const IRRADIANCE: Vec3 = Vec3::new(0.3, 0.2, 0.25);
@@ -26,7 +27,7 @@ fn one_quad(satin: &Satin, roughness: f32, metallic: f32, angle_deg: f32, to_lig
     let rotation = Quat::from_rotation_y(angle_deg.to_radians());
     stage.object(quad(4.0, 0.8), material, Transform::Trs { translation: Vec3::ZERO, rotation, scale: Vec3::ONE });
     let mut scene = stage.scene();
-    scene.materials_mut()[material].cloth = Some(Cloth::Satin(satin.clone()));
+    scene.materials_mut()[material].family = Some(Family::Satin(satin.clone()));
     scene
 }
 
@@ -130,8 +131,15 @@ fn extreme_magnitudes_stay_finite() {
 fn a_black_lobe_has_no_code() {
     let constants = |satin: Satin| {
         let scene = one_quad(&satin, 0.5, 0.0, 0.0, Vec3::Z);
-        let shot = vair::render::Shot::new(&scene, &options([4, 4], 1)).unwrap();
-        let spec = shot.plan.pipelines.iter().find(|spec| spec.fragment.contains("satin")).unwrap().clone();
+        let setup = vair::render::FrameSetup::new(&scene, &options([4, 4], 1)).unwrap();
+        let spec = setup
+            .staging
+            .plan
+            .pipelines
+            .iter()
+            .find(|spec| spec.fragment.file == ShaderFile::SatinFrag)
+            .unwrap()
+            .clone();
         ["NARROW", "SECONDARY", "TWO_WAY"]
             .map(|name| spec.constants.iter().any(|(of, value)| *of == name && *value != 0))
     };
@@ -170,7 +178,7 @@ pub fn satin_balls() -> Scene {
     three_lights(&mut stage);
     let mut scene = stage.scene();
     for (index, (_, satin)) in balls.into_iter().enumerate() {
-        scene.materials_mut()[index].cloth = Some(Cloth::Satin(satin));
+        scene.materials_mut()[index].family = Some(Family::Satin(satin));
     }
     scene
 }

@@ -5,9 +5,9 @@ use crate::stage::{NEAREST, Stage, at, camera_axes, options as unshadowed, plain
 use glam::{Mat3, Vec3, Vec4Swizzles};
 use vair::asset::procedural::sphere;
 use vair::asset::{AlphaMode, LightKind, Material, Transform};
-use vair::material::reference::shadow::normal_step;
-use vair::material::{Cloth, Fur, Gauze, Length};
-use vair::render::{FrameOptions, Pass, Picture, Shadows, Shot};
+use vair::material::{Family, Fur, Gauze, Length};
+use vair::measure::twin::shadow::normal_step;
+use vair::render::{FrameOptions, FrameSetup, Pass, Picture, Shadows};
 use vair::scene::{Light, Scene};
 
 const SIZE: [u32; 2] = [128, 128];
@@ -84,7 +84,8 @@ fn a_balls_shadow_on_a_floor_lies_where_geometry_says() {
         for (resolution_px, filter_px) in [(512, 1), (1024, 2), (2048, 3)] {
             let shadows = Shadows { resolution_px, filter_px, ..Shadows::default() };
             let frame = FrameOptions { shadows, ..options(SIZE, 1) };
-            let map = Shot::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan.shadows.maps[0];
+            let map =
+                FrameSetup::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).staging.shadow_maps.maps[0];
             let [shadowed, lit] = both(device, &scene, &frame);
             let dark = device.picture(&dark, &frame);
             let (mut inside, mut outside) = (0, 0);
@@ -153,7 +154,7 @@ fn gauze_tints_its_shadow_and_two_sheets_multiply() {
             stage.object(quad(0.3, 0.3), red, at(Vec3::Z * height_m));
         }
         let dress = |mut scene: Scene| {
-            scene.materials_mut()[red].cloth = Some(Cloth::Gauze(Gauze::default()));
+            scene.materials_mut()[red].family = Some(Family::Gauze(Gauze::default()));
             scene
         };
         let dark = dress(unlit(&stage));
@@ -233,13 +234,16 @@ fn lights_that_reach_nothing_cost_nothing() {
     stage.light(near, Vec3::ONE, Vec3::new(-0.6, 0.0, 0.2), Vec3::Z);
     let scene = stage.scene();
     let frame = options(SIZE, 1);
-    let plan = |frame: &FrameOptions| Shot::new(&scene, frame).unwrap_or_else(|error| panic!("{error}")).plan;
-    assert_eq!(plan(&frame).lights.ranges.iter().map(|range| range.len()).collect::<Vec<_>>(), [1, 0]);
+    let staging =
+        |frame: &FrameOptions| FrameSetup::new(&scene, frame).unwrap_or_else(|error| panic!("{error}")).staging;
+    assert_eq!(staging(&frame).light_lists.ranges.iter().map(|range| range.len()).collect::<Vec<_>>(), [1, 0]);
 
     let away = Light { position_in_world: Vec3::Z * 9.0, range_m: Some(1.0), ..point() };
     let dark = Light { intensity: Vec3::ZERO, ..Light::key() };
     let more = FrameOptions { lights: vec![away, dark], ..frame.clone() };
-    assert_eq!((&plan(&more).lights, &plan(&more).passes), (&plan(&frame).lights, &plan(&frame).passes));
+    let [more_staging, staging] = [staging(&more), staging(&frame)];
+    assert_eq!(more_staging.light_lists, staging.light_lists);
+    assert_eq!(more_staging.plan.passes, staging.plan.passes);
     headless(|device| assert_eq!(device.picture(&scene, &more).radiance, device.picture(&scene, &frame).radiance));
 }
 
@@ -262,11 +266,12 @@ fn without_shadows_there_is_neither_pass_nor_image_nor_binding() {
         (&dark, options(SIZE, 1), false),
         (&shaded, options(SIZE, 1), false),
     ] {
-        let plan = Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
+        let setup = FrameSetup::new(scene, &frame).unwrap_or_else(|error| panic!("{error}"));
+        let plan = &setup.staging.plan;
         let binds = plan.pipelines.iter().any(|spec| spec.bindings().contains("shadow_map"));
         let images = plan.memory(scene, &frame).keys().any(|name| name.contains("shadow"));
-        let left_out = plan.left_out.iter().any(|left| left.what == "shadow maps");
-        assert_eq!([plan.passes.contains(&Pass::Shadow), binds, images, !left_out], [has_shadows; 4]);
+        let skipped = setup.skipped(scene).iter().any(|skipped| skipped.what == "shadow maps");
+        assert_eq!([plan.passes.contains(&Pass::ShadowMap), binds, images, !skipped], [has_shadows; 4]);
     }
 }
 

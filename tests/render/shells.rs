@@ -10,8 +10,8 @@ use crate::stage::{Stage, camera_axes, options, plain, quad};
 use glam::{DVec2, DVec3, Quat, Vec3, Vec4};
 use std::f64::consts::FRAC_PI_2;
 use vair::asset::{Primitive, Transform};
-use vair::material::reference::strand::{arc, bend_angle};
 use vair::material::{ForceSpace, Fur, Length};
+use vair::measure::twin::strand::{arc, bend_angle};
 use vair::render::{FrameOptions, Picture, ShellSampling, Shells as ShellOptions};
 
 const LAYERS: u32 = 6;

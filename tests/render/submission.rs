@@ -1,11 +1,13 @@
 //! However shells reach the device, the picture is the same: instances, draws, or vertices once a shell.
 
-use crate::deform::bent_tube;
 use crate::headless::headless;
 use crate::scenes::fur_cube;
+use crate::skinning::bent_tube;
 use crate::stage::options;
 use vair::material::{Blend, Fur};
-use vair::render::{FrameOptions, FrameReport, RenderError, ShellOrder, ShellSubmission, Shells, Shot, Transparency};
+use vair::render::{
+    FrameOptions, FrameReport, FrameSetup, RenderError, ShellOrder, ShellSubmission, Shells, Transparency,
+};
 use vair::scene::Scene;
 
 const LAYERS: u64 = 8;
@@ -65,7 +67,7 @@ fn duplicated_shells_are_uploaded_once_each_and_go_again() {
         |submission| FrameOptions { shells: Shells { submission, ..Shells::default() }, ..options([32, 32], 1) };
     let [one, many] = [ShellSubmission::Instanced, ShellSubmission::Duplicated].map(frame);
     let bytes = |frame: &FrameOptions| {
-        let plan = Shot::new(&scene, frame).unwrap_or_else(|error| panic!("{error}")).plan;
+        let plan = FrameSetup::new(&scene, frame).unwrap_or_else(|error| panic!("{error}")).staging.plan;
         plan.stream_bytes(scene.asset()) + plan.index_bytes(scene.asset())
     };
     let coat = VERTICES * BYTES_A_VERTEX + INDEX_BYTES;
@@ -86,7 +88,7 @@ fn a_coat_that_moves_cannot_be_duplicated() {
         let mut scene = bent_tube(skinned);
         scene.materials_mut()[0].fur = Some(Fur::default());
         let shells = Shells { submission: ShellSubmission::Duplicated, ..Shells::default() };
-        let error = Shot::new(&scene, &FrameOptions { shells, ..options([8, 8], 1) }).err();
+        let error = FrameSetup::new(&scene, &FrameOptions { shells, ..options([8, 8], 1) }).err();
         assert!(matches!(error, Some(RenderError::Option { option: "duplicated shells", .. })), "{error:?}");
     }
 }

@@ -5,8 +5,8 @@ use crate::limit::{all_hold, close};
 use crate::stage::{Stage, at, options, plain, quad};
 use glam::{DVec3, Quat, Vec3, Vec4};
 use vair::asset::{LightKind, Material, Transform};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::standard::{Lobes, Surface};
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::standard::{Lobes, Surface};
 use vair::render::FrameOptions;
 use vair::scene::Light;
 

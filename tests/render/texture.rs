@@ -6,11 +6,11 @@ use crate::stage::{NEAREST, Stage, at, options, plain, quad, unlit};
 use crate::surface::{AMBIENT, radiance};
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use vair::asset::{Material, Primitive, Sampler, TextureRef, Wrap};
-use vair::material::reference::albedo::Fit;
-use vair::material::reference::color::linear_from_srgb;
-use vair::material::reference::occlusion;
-use vair::material::reference::standard::Surface;
-use vair::material::reference::uv::transformed;
+use vair::measure::twin::albedo::Fit;
+use vair::measure::twin::color::linear_from_srgb;
+use vair::measure::twin::occlusion;
+use vair::measure::twin::standard::Surface;
+use vair::measure::twin::uv::transformed;
 use vair::render::Picture;
 use vair::scene::Scene;
 

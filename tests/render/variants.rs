@@ -1,15 +1,16 @@
 //! Every compiled shader serves some draw, and every pipeline that draws ask for can be made.
 
-use crate::deform::bent_tube;
 use crate::headless::headless;
+use crate::skinning::bent_tube;
 use crate::stage::{Stage, at, options as unshadowed, plain, quad};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use vair::asset::{AlphaMode, Animation, Material, Primitive, TextureRef, Topology};
-use vair::material::{Blend, Cloth, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
-use vair::render::{Aovs, FrameOptions, Plan, ScreenOcclusion, Shadows, Shot, Target, Transparency};
+use vair::material::{Blend, Family, Form, Fur, ImageName, Layered, Shape, TextureSource, Value};
+use vair::measure::{count_fragments, counting_pipeline};
+use vair::render::{Aovs, Eye, FrameOptions, FrameSetup, Plan, ScreenOcclusion, Shadows, Transparency};
 use vair::scene::{Light, Scene};
-use vair::shader::table;
+use vair::shader::{ShaderKey, table};
 
 fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
     FrameOptions { shadows: Shadows::default(), ..unshadowed(size, msaa) }
@@ -77,8 +78,8 @@ fn cloths(alpha_mode: AlphaMode) -> Scene {
     let mut stage = Stage::front(0.5);
     let map = stage.texel([128, 128, 255, 255]);
     let mut dressed = Vec::new();
-    let fuzzy = Cloth::Layered(Layered { sheen_color: Vec3::ONE, ..Layered::default() });
-    for cloth in Cloth::KINDS.iter().filter_map(|kind| Cloth::of_kind(kind)).chain([fuzzy]) {
+    let fuzzy = Family::Layered(Layered { sheen_color: Vec3::ONE, ..Layered::default() });
+    for cloth in Family::KINDS.iter().filter_map(|kind| Family::of_kind(kind)).chain([fuzzy]) {
         for has_color in [false, true] {
             for (textured, detailed, own_maps) in [
                 (false, false, false),
@@ -98,13 +99,13 @@ fn cloths(alpha_mode: AlphaMode) -> Scene {
     for (material, cloth, detailed, own_maps) in dressed {
         let material = &mut scene.materials_mut()[material];
         material.standard.detail_normal_texture = detailed.then_some(map);
-        material.cloth = Some(if own_maps { with_every_map(cloth, map) } else { cloth });
+        material.family = Some(if own_maps { with_every_map(cloth, map) } else { cloth });
     }
     scene
 }
 
 /// The cloth with that texture for every map that it declares.
-pub fn with_every_map(mut cloth: Cloth, map: TextureRef) -> Cloth {
+pub fn with_every_map(mut cloth: Family, map: TextureRef) -> Family {
     struct One(usize);
     impl TextureSource for One {
         fn texture(&mut self, _: &ImageName) -> Result<usize, String> {
@@ -172,26 +173,23 @@ fn guided(frame: &FrameOptions) -> [FrameOptions; 3] {
 fn every_shader_is_used_and_every_pipeline_can_be_made() {
     let mut skin_alone = bent_tube(true).asset().clone();
     skin_alone.meshes[0].primitives[0].morph_targets.clear();
+    skin_alone.meshes[0].weights.clear();
+    skin_alone.nodes.iter_mut().for_each(|node| node.weights.clear());
     let skin_alone = Scene::from_asset(skin_alone).unwrap();
     let scenes = [surfaces(), coats(), bent_tube(true), bent_tube(false), skin_alone];
-    // The last pass is not planned: it depends on the target.
-    let unplanned = [
-        "tonemap.vert",
-        "tonemap.frag",
-        "tonemap.frag+BACKDROP",
-        "screen_occlusion.frag",
-        "screen_occlusion_blur.frag",
-    ];
-    let mut used = BTreeSet::from(unplanned.map(str::to_owned));
-    // Nor is what prepares an environment, once.
-    let is_of_environment = |name: &&str| name.starts_with("environment_");
-    used.extend(table::ALL.iter().map(|shader| shader.name).filter(is_of_environment).map(str::to_owned));
+    // The tone mapping depends on what the picture's background is, and what prepares an environment runs once.
+    let is_unplanned = |key: &ShaderKey| {
+        let name = key.file.name();
+        name == "tone_mapping.frag" || name.starts_with("environment_")
+    };
+    let compiled: BTreeSet<ShaderKey> = table::ALL.iter().map(|(key, _)| *key).collect();
+    let mut used: BTreeSet<ShaderKey> = compiled.iter().copied().filter(is_unplanned).collect();
     // Their pipelines are made below, beside these.
     for scene in [AlphaMode::Opaque, AlphaMode::Blend].map(cloths) {
         for transparency in [Transparency::PerPixel, Transparency::Sorted] {
             for lights in [vec![Light::key()], Vec::new()] {
                 for frame in guided(&FrameOptions { transparency, lights: lights.clone(), ..options([4, 4], 4) }) {
-                    let plan = Shot::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
+                    let plan = FrameSetup::new(&scene, &frame).unwrap_or_else(|error| panic!("{error}")).staging.plan;
                     used.extend(plan.pipelines.into_iter().flat_map(|spec| [spec.vertex, spec.fragment]));
                 }
             }
@@ -204,28 +202,31 @@ fn every_shader_is_used_and_every_pipeline_can_be_made() {
                 let animation = (!scene.asset().animations.is_empty()).then_some(0);
                 let frame = FrameOptions { animation, lights: lights.clone(), ..options([4, 4], msaa) };
                 for frame in guided(&frame) {
-                    let plan = Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan;
-                    used.extend(plan.pipelines.iter().flat_map(|spec| [spec.vertex.clone(), spec.fragment.clone()]));
+                    let plan = FrameSetup::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).staging.plan;
+                    used.extend(plan.pipelines.iter().flat_map(|spec| [spec.vertex, spec.fragment]));
                     if !frame.aovs.any() {
-                        let drawn = plan.pipelines.iter().filter(|spec| spec.target == Target::Color);
-                        used.extend(drawn.map(|spec| spec.counting().fragment));
+                        let drawn =
+                            plan.pipelines.iter().filter(|spec| spec.eye == Eye::Camera && spec.variants.is_some());
+                        used.extend(drawn.filter_map(counting_pipeline).map(|spec| spec.fragment));
                     }
-                    used.extend(plan.composition.iter().map(|spec| spec.fragment.clone()));
-                    used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader.clone()));
+                    used.extend(
+                        plan.full_screen(&frame.plan_options()).iter().flat_map(|spec| [spec.vertex, spec.fragment]),
+                    );
+                    used.extend(plan.compute_pipelines.iter().map(|spec| spec.shader));
                     device.picture(scene, &frame);
                 }
-                device.renderer.count_fragments(scene, &frame).unwrap_or_else(|error| panic!("{error}"));
+                count_fragments(&mut device.renderer, scene, &frame).unwrap_or_else(|error| panic!("{error}"));
             }
         }
-        let compiled: BTreeSet<String> = table::ALL.iter().map(|shader| shader.name.to_owned()).collect();
-        assert_eq!(used, compiled, "left: used, right: compiled");
+        let difference: Vec<_> = used.symmetric_difference(&compiled).map(ShaderKey::to_string).collect();
+        assert!(difference.is_empty(), "used and not compiled, or compiled and not used: {difference:?}");
         assert!(device.renderer.pipeline_descriptions().len() > 60, "most combinations make a pipeline of their own");
     });
 }
 
 fn plan_of(scene: &Scene, transparency: Transparency, lights: Vec<Light>) -> Plan {
     let frame = FrameOptions { transparency, lights, ..options([4, 4], 4) };
-    Shot::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).plan
+    FrameSetup::new(scene, &frame).unwrap_or_else(|error| panic!("{error}")).staging.plan
 }
 
 #[test]
@@ -237,7 +238,7 @@ fn every_pipeline_of_cloth_can_be_made() {
                 device.picture(scene, &FrameOptions { lights: lights.clone(), ..options([4, 4], 4) });
                 let made = device.renderer.pipeline_descriptions().len();
                 let planned = plan_of(scene, Transparency::PerPixel, lights).pipelines.len();
-                assert!(made >= planned && made > 5 * Cloth::KINDS.len(), "{made}");
+                assert!(made >= planned && made > 5 * Family::KINDS.len(), "{made}");
             }
         }
     });

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 use std::process::Command;
-use vair::shader::Stage;
+use vair::shader::{Spirv, Stage};
 
 /// Compiles `source` and gives its words for the rest of the test run.
-pub(crate) fn compile(name: &str, stage: Stage, source: &str) -> &'static [u8] {
+pub(crate) fn compile(name: &str, stage: Stage, source: &str) -> Spirv {
     let dir = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
     let (input, output) = (dir.path().join(name), dir.path().join("out.spv"));
     std::fs::write(&input, source).unwrap();
     run(&input, &output, stage);
-    std::fs::read(&output).unwrap().leak()
+    let bytes = std::fs::read(&output).unwrap();
+    Spirv::Plain(bytemuck::pod_collect_to_vec::<u8, u32>(&bytes).leak())
 }
 
 fn run(input: &Path, output: &Path, stage: Stage) {

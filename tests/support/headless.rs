@@ -37,7 +37,7 @@ pub fn validation_messages(check: impl FnOnce(&mut Headless)) -> Vec<String> {
     let gpu = Gpu::new(&GpuOptions { validate: true, pipeline_cache_dir, ..GpuOptions::default() })
         .unwrap_or_else(|error| panic!("{error}; tools/setup installs what the tests need"));
     let log = gpu.validation_log();
-    let renderer = Renderer::with_gpu(gpu.clone()).unwrap_or_else(|error| panic!("{error}"));
+    let renderer = Renderer::with_gpu(gpu.clone());
     let mut lent = Headless { renderer };
     check(&mut lent);
     drop(lent);

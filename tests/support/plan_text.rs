@@ -1,11 +1,26 @@
-//! A frame plan as text that stays the same as long as the plan does.
+//! A frame setup as text that stays the same as long as its plan does.
 
 use std::fmt::Write;
-use vair::render::{Draw, Plan};
+use vair::gpu::vk;
+use vair::render::{Blending, Draw, FrameSetup, Pass};
 use vair::scene::Scene;
 
-/// Passes, draws, pipelines, streams, textures and what was left out.
-pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
+/// The passes that draw the scene.
+const DRAWING: [Pass; 9] = [
+    Pass::ShadowMap,
+    Pass::TranslucentShadowFront,
+    Pass::TranslucentShadowBack,
+    Pass::TranslucentShadowTransmittance,
+    Pass::GBuffer,
+    Pass::Opaque,
+    Pass::Fur,
+    Pass::OitBuild,
+    Pass::Transparent,
+];
+
+/// Passes, draws, pipelines, streams, textures and what was skipped.
+pub fn plan_text(scene: &Scene, setup: &FrameSetup) -> String {
+    let (staging, plan) = (&setup.staging, &setup.staging.plan);
     let mut text = String::new();
     let mut line = |line: String| writeln!(text, "{line}").unwrap_or_else(|error| panic!("{error}"));
     line(format!("passes: {}", plan.passes.iter().map(|pass| pass.name()).collect::<Vec<_>>().join(", ")));
@@ -13,29 +28,29 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     for attachment in &plan.attachments {
         line(format!("  {}: {:?}, {} samples", attachment.name, attachment.format, attachment.samples));
     }
-    for (name, format) in plan.shadows.images() {
-        line(format!("  {name}: {format:?}, {:?} texels", plan.shadows.size()));
+    for (name, format, size) in plan.shadow_images() {
+        line(format!("  {name}: {format:?}, {size:?} texels"));
     }
-    line(format!("lights: {:?}, by instance {:?}", plan.lights.lights, plan.lights.ranges));
-    for map in &plan.shadows.maps {
+    line(format!("lights: {:?}, by part {:?}", staging.light_lists.lights, staging.light_lists.ranges));
+    for map in &staging.shadow_maps.maps {
         let kind = if map.is_orthographic { "parallel" } else { "perspective" };
         line(format!("shadow map: light {}, {kind}", map.light));
     }
-    line("instances:".to_owned());
-    for instance in &plan.instances {
-        let (mesh, primitive) = (instance.mesh, instance.primitive);
-        let material = &scene.materials()[instance.material].name;
+    line("parts:".to_owned());
+    for part in &plan.parts {
+        let (mesh, primitive, instance) = (part.mesh, part.primitive, &staging.instances[part.instance]);
+        let material = &scene.materials()[part.material].name;
         let mirrored = if instance.mirrored { ", mirrored" } else { "" };
         let skinned = if instance.skin.is_some() { ", skinned" } else { "" };
         let morphs = instance.morph_weights.len();
         line(format!("  mesh {mesh}.{primitive}, {material:?}{mirrored}{skinned}, {morphs} morph targets"));
     }
-    let shown =
-        [("guide", &plan.guide[..]), ("opaque", &plan.opaque), ("fur", &plan.fur), ("transparent", &plan.transparent)];
-    for (name, draws) in plan.shadows.lists().map(|(pass, draws)| (pass.name(), draws)).into_iter().chain(shown) {
-        line(format!("{name} draws: {}", draws.len()));
-        for Draw { instance, pipeline, kind, faces } in draws {
-            line(format!("  instance {instance}, pipeline {pipeline}, {kind:?}, {faces:?}"));
+    assert!(plan.draws.keys().all(|pass| DRAWING.contains(pass)), "{:?}", plan.draws.keys());
+    for pass in DRAWING {
+        let draws = plan.draws_of(pass);
+        line(format!("{} draws: {}", pass.name(), draws.len()));
+        for Draw { part, pipeline, kind, faces } in draws {
+            line(format!("  part {part}, pipeline {pipeline}, {kind:?}, {faces:?}"));
         }
     }
     line("pipelines:".to_owned());
@@ -43,19 +58,26 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
         let constants: Vec<String> = spec.constants.iter().map(|(name, value)| format!("{name}={value}")).collect();
         line(format!("  {index}: {} -> {}, {:?}", spec.vertex, spec.fragment, spec.topology));
         line(format!("     {}", constants.join(" ")));
-        let blend = if spec.blend { "blended" } else { "not blended" };
-        line(format!("     {blend}, depth {:?}, {} samples, {:?}", spec.depth, spec.samples, spec.color_format));
+        let blend = match spec.blending {
+            Blending::Replace => "not blended",
+            Blending::Over => "blended",
+            Blending::Sum => "summed",
+        };
+        let used = |format: &&vk::Format| **format != vk::Format::UNDEFINED;
+        let formats: Vec<_> = spec.targets.color.iter().take_while(used).collect();
+        let (depth, samples) = (spec.depth, spec.targets.samples);
+        line(format!("     {blend}, depth {depth:?}, {samples} samples, {formats:?}"));
     }
     line("compute pipelines:".to_owned());
     for (index, spec) in plan.compute_pipelines.iter().enumerate() {
         line(format!("  {index}: {} {:?}", spec.shader, spec.constants));
     }
-    line("deformed streams:".to_owned());
+    line("skinned streams:".to_owned());
     for deform in &plan.deforms {
-        line(format!("  instance {}, {:?}, compute pipeline {}", deform.instance, deform.stream, deform.pipeline));
+        line(format!("  part {}, {:?}, compute pipeline {}", deform.part, deform.stream, deform.pipeline));
     }
-    for sway in &plan.sways {
-        line(format!("swaying coat: instance {}, compute pipeline {}", sway.instance, sway.pipeline));
+    for dynamics in &plan.dynamics {
+        line(format!("strand dynamics: part {}, compute pipeline {}", dynamics.part, dynamics.pipeline));
     }
     line("vertex streams:".to_owned());
     for ((mesh, primitive), streams) in &plan.streams {
@@ -74,10 +96,10 @@ pub fn plan_text(scene: &Scene, plan: &Plan) -> String {
     if !plan.tables.is_empty() {
         line(format!("tables: {:?}", plan.tables.keys()));
     }
-    line(format!("stand-ins: {:?}, absent streams: {}", plan.stand_ins, plan.has_absent_streams));
-    line("left out:".to_owned());
-    for left_out in &plan.left_out {
-        line(format!("  {}: {}", left_out.what, left_out.why));
+    line(format!("fallbacks: {:?}, absent streams: {}", plan.fallbacks, plan.has_absent_streams));
+    line("skipped:".to_owned());
+    for skipped in setup.skipped(scene) {
+        line(format!("  {}: {}", skipped.what, skipped.why));
     }
     text
 }

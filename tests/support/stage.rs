@@ -6,7 +6,7 @@ use vair::asset::{
     TextureRef, Transform, Vertices,
 };
 use vair::render::{FrameOptions, Shadows, Tonemap};
-use vair::scene::{CameraChoice, Scene, Surroundings};
+use vair::scene::{CameraChoice, EnvironmentLight, Scene};
 
 /// Depth of the front camera before the XY plane, metres; it sees as far behind it.
 const FRONT_M: f32 = 50.0;
@@ -110,10 +110,10 @@ pub const AMBIENT: f32 = 0.05;
 /// A picture of the first camera, linear and unexposed, without shadows: what is computed beside it knows none, and swatches
 /// stand closely.
 pub fn options(size: [u32; 2], msaa: u32) -> FrameOptions {
-    let surroundings = Surroundings::constant(Vec3::splat(AMBIENT));
+    let environment = EnvironmentLight::constant(Vec3::splat(AMBIENT));
     let camera = CameraChoice::Index(0);
     let shadows = Shadows { are_cast: false, ..Shadows::default() };
-    FrameOptions { size, msaa, camera, tonemap: Tonemap::None, surroundings, shadows, ..FrameOptions::default() }
+    FrameOptions { size, msaa, camera, tonemap: Tonemap::None, environment, shadows, ..FrameOptions::default() }
 }
 
 /// A rectangle in the XY plane that faces +Z, uv (0, 0) at its top left.

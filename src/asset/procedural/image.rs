@@ -24,7 +24,7 @@ pub fn strand_image(size_px: u32, cells: u32, radius_cells: f32, seed: u32) -> I
             .flat_map(|dy| (-1..=1).map(move |dx| home + IVec2::new(dx, dy)))
             .map(|cell| {
                 let id = hash([cell.x.rem_euclid(cells) as u32, cell.y.rem_euclid(cells) as u32, seed]);
-                // Jitter within the middle half of the cell keeps the coat even.
+                // Jitter within the middle half of the cell keeps the fur even.
                 let jitter = Vec2::new(unit(hash([id, 1, 0])), unit(hash([id, 2, 0]))) * 0.5 + 0.25;
                 ((cell.as_vec2() + jitter).distance(at), id)
             })

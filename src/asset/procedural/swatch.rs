@@ -20,7 +20,7 @@ pub fn swatch(draped: bool) -> Asset {
     const RADIUS_M: f32 = 0.2;
     let mut set = Set::default();
     let paper = set.material(surface("paper", [0.32, 0.31, 0.30], 0.0, 0.9));
-    // Coats without a colour of their own show the surface's.
+    // Fur without a colour of their own show the surface's.
     let color = if draped { [0.5; 3] } else { [0.55, 0.26, 0.09] };
     let sample = set.material(surface(SWATCH_MATERIAL, color, 0.0, 0.6));
     set.object("paper", backdrop(4.0, 2.6, 1.6, 2.6, 1.0), paper, Vec3::ZERO, Quat::IDENTITY);

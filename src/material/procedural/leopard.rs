@@ -1,8 +1,8 @@
-//! The coat of a leopard.
+//! The fur of a leopard.
 
 use super::{edge, grey};
 use crate::asset::Image;
-use crate::material::reference::hash::pcg3d;
+use crate::math::pcg3d;
 use glam::Vec2;
 use std::f32::consts::TAU;
 
@@ -11,7 +11,7 @@ const CELLS: i32 = 4;
 /// Width of the spots' soft rims, in cells.
 const RIM: f32 = 0.05;
 
-/// Coat of a leopard: broken rings of dark spots with a warmer heart, as weights in R (1 = spot).
+/// Fur of a leopard: broken rings of dark spots with a warmer heart, as weights in R (1 = spot).
 ///
 /// One rosette per cell of a jittered grid (Worley 1996, "A Cellular Texture Basis Function"); the ring's radius wobbles
 /// with the angle and gaps open in it.

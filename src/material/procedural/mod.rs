@@ -21,7 +21,7 @@ pub struct Procedural {
 
 /// All of them.
 pub const ALL: &[Procedural] = &[
-    Procedural { name: "leopard", help: "Data: broken rings of a coat, 1 = spot.", make: leopard::leopard },
+    Procedural { name: "leopard", help: "Data: broken rings of fur, 1 = spot.", make: leopard::leopard },
     Procedural {
         name: "strands",
         help: "Data: 48 x 48 strands that thin from 1 in their middle.",

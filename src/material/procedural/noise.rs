@@ -2,7 +2,7 @@
 
 use super::grey;
 use crate::asset::Image;
-use crate::material::reference::hash::pcg3d;
+use crate::math::pcg3d;
 use glam::{IVec2, Vec2};
 use std::f32::consts::TAU;
 
