@@ -131,7 +131,7 @@ pub struct TargetFormats {
 }
 
 impl TargetFormats {
-    /// Of these colour targets, in order, and depth. More than [`MAX_COLOR_TARGETS`] fit nothing.
+    /// Of these colour targets, in order, and depth. More than `MAX_COLOR_TARGETS` fit nothing.
     pub fn new(color: impl IntoIterator<Item = vk::Format>, depth: Option<vk::Format>, samples: u32) -> Self {
         let mut formats = Self { color: Default::default(), depth, samples };
         for (slot, format) in formats.color.iter_mut().zip(color) {

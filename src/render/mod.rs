@@ -3,7 +3,7 @@
 //! A frame goes one way. What stands where, in which light, is [`Staging`]: a host's [`DeviceScene`] fills it by its edits, a
 //! picture's [`FrameSetup`] by poses of a file. From it follows the [`Plan`], plain data, which stays while a scene only
 //! moves. The device makes what the plan lists and nothing else, each frame writes its values, and the passes
-//! ([`pass`], one file each, in the order of their list) are recorded.
+//! (`pass`, one file each, in the order of their list) are recorded.
 //!
 //! | file | is |
 //! |---|---|
