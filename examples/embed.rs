@@ -1,7 +1,7 @@
-//! vair inside an engine's own frame: `cargo run --example embed [PICTURE.png]`.
+//! vair inside an engine's own frame: `cargo run --example embed [PICTURE.png [--validate]]`.
 //!
 //! The engine has its own colour and depth, two frames in flight, and something that it draws itself: a box. vair draws two
-//! characters of one coat, posed by the engine, into the same pass: one stands before the box, one behind it. What vair
+//! characters of one kind of fur, posed by the engine, into the same pass: one stands before the box, one behind it. What vair
 //! writes is linear radiance; the engine's own tone mapping follows.
 #![allow(unsafe_code)]
 
@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = std::env::args().nth(1).unwrap_or_else(|| "vair.png".to_owned());
 
     // The engine's own objects.
-    let engine = Engine::new(&[], &[])?;
+    let is_validated = std::env::args().nth(2).is_some_and(|word| word == "--validate");
+    let engine = Engine::new(if is_validated { &[c"VK_LAYER_KHRONOS_validation"] } else { &[] }, &[])?;
     let [color_use, depth_use] = [vk::ImageUsageFlags::COLOR_ATTACHMENT, vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT];
     let target = Target::hdr(SAMPLES);
     let color = engine.target(target.color, SIZE, SAMPLES, color_use)?;
@@ -44,12 +45,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let new_slot = || Ok::<_, Box<dyn std::error::Error>>(Slot { commands: engine.commands()?, token: None });
     let mut slots = (0..FRAMES_IN_FLIGHT).map(|_| new_slot()).collect::<Result<Vec<Slot>, _>>()?;
 
-    // vair on the engine's device: a renderer, and a scene from memory with two characters of one mesh and coat.
+    // vair on the engine's device: a renderer, and a scene from memory with two characters of one mesh and fur.
     // SAFETY: the handles belong together and are destroyed after `gpu` and everything made from it.
     let gpu = unsafe { Gpu::from_host(engine.lend(false)) }?;
     let mut renderer = Renderer::with_gpu(gpu.clone());
     let mut scene = DeviceScene::new(Scene::from_asset(character())?);
-    scene.apply(&Look::preset("fox", Some("coat"))?, Path::new(""), &LoadOptions::default())?;
+    scene.apply(&Look::preset("fox", Some("fur"))?, Path::new(""), &LoadOptions::default())?;
     let skinned = InstanceDesc { mesh: 0, skin: Some(0), ..InstanceDesc::default() };
     let characters = [scene.add(&skinned)?, scene.add(&skinned)?];
 
@@ -123,13 +124,44 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // SAFETY: image and view are alive, as described, in that layout, and may be copied from.
     let image = unsafe { Image::from_host(&gpu, &desc) };
     let radiance = gpu.read_image(&image)?;
-    Picture::new(SIZE, radiance.chunks_exact(8).flat_map(tone_mapped).collect()).save(&out)?;
+    let picture = Picture::new(SIZE, radiance.chunks_exact(8).flat_map(tone_mapped).collect());
+    picture.save(&out)?;
+    check(&picture)?;
     println!("{out}: {FRAMES} frames on {} by the engine's command buffers", gpu.info().name);
 
     drop((image, scene, renderer, gpu));
     slots.iter().for_each(|slot| engine.destroy_commands(&slot.commands));
     [color, depth, resolved].iter().for_each(|target| engine.destroy_target(target));
     engine.destroy();
+    Ok(())
+}
+
+/// Both depth tests went as they should: fur before the box, the box before fur, and fur above it.
+fn check(picture: &Picture) -> Result<(), String> {
+    let seen = |x: usize, y: usize| {
+        let first = 4 * (y * SIZE[0] as usize + x);
+        let [r, g, b] = [0, 1, 2].map(|channel| i32::from(picture.rgba[first + channel]));
+        if r > b + 20 {
+            "fur"
+        } else if g > r + 40 {
+            "box"
+        } else {
+            "background"
+        }
+    };
+    for (x, y, expected) in [
+        (50, 50, "background"),
+        (230, 200, "fur"),
+        (190, 110, "fur"),
+        (405, 170, "box"),
+        (410, 120, "fur"),
+        (450, 250, "box"),
+    ] {
+        let found = seen(x, y);
+        if found != expected {
+            return Err(format!("at ({x}, {y}) stands {found} where {expected} should"));
+        }
+    }
     Ok(())
 }
 
@@ -141,12 +173,12 @@ fn character() -> Asset {
     capsule.vertices.joints = weights.flat_map(|upper| [(0, 1.0 - upper), (1, upper), (0, 0.0), (0, 0.0)]).collect();
     capsule.vertices.influences_per_vertex = 4;
     let base_color = Vec4::new(0.62, 0.27, 0.075, 1.0);
-    let coat = Material { name: Some("coat".to_owned()), base_color, metallic: 0.0, ..Material::default() };
+    let fur = Material { name: Some("fur".to_owned()), base_color, metallic: 0.0, ..Material::default() };
     Asset {
         nodes: vec![Node::default(), Node::default()],
         meshes: vec![Mesh { primitives: vec![Primitive { material: 0, ..capsule }], ..Mesh::default() }],
         skins: vec![Skin { joints: vec![0, 1], inverse_bind: vec![Mat4::IDENTITY; 2] }],
-        materials: vec![coat],
+        materials: vec![fur],
         scenes: vec![AssetScene::default()],
         ..Asset::default()
     }
